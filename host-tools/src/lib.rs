@@ -1,0 +1,13 @@
+//! The host tools of fixel: scene files in, pictures and an explained comparison out.
+//!
+//! ```text
+//! text -> scene -> interpret -+-> fixed     -> picture -+
+//!                             +-> reference -> picture -+-> compare -> report
+//! ```
+//!
+//! [`scene`] turns text into typed commands with their place in the text. [`interpret`] walks them once and drives a
+//! [`backend::BackEnd`]. Two exist and share no arithmetic: `fixed`, which uses nothing but what firmware could use,
+//! and [`reference`](mod@reference) in float64.
+
+pub mod backend;
+pub mod scene;

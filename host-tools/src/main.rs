@@ -1,0 +1,2 @@
+//! host-render
+fn main() {}

@@ -1,0 +1,3 @@
+//! fixel
+#![no_std]
+#![forbid(unsafe_code)]
