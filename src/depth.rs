@@ -1,0 +1,153 @@
+//! The 16-bit depth buffer, or none.
+
+use core::iter::RepeatN;
+use core::marker::PhantomData;
+
+use crate::span::Span;
+use crate::target::{Target, pixels};
+use crate::window::Window;
+
+/// Whether a fragment of depth `new` is drawn over one of depth `old`; smaller is nearer.
+pub trait Comparison {
+    /// The rule.
+    fn passes(new: u16, old: u16) -> bool;
+}
+
+macro_rules! comparisons {
+    ($($name:ident: $operator:tt, $what:literal;)*) => {$(
+        #[doc = $what]
+        ///
+        /// ```
+        /// use fixel::depth::{Comparison, LessOrEqual};
+        /// assert!(LessOrEqual::passes(5, 5));
+        /// ```
+        #[derive(Debug, Clone, Copy)]
+        pub enum $name {}
+
+        impl Comparison for $name {
+            #[inline(always)]
+            fn passes(new: u16, old: u16) -> bool {
+                new $operator old
+            }
+        }
+    )*};
+}
+
+comparisons! {
+    Less: <, "Nearer wins; of equals the earlier stays (`.iv`, OpenGL's default).";
+    LessOrEqual: <=, "Nearer wins; of equals the later (HW2, MP1).";
+    Greater: >, "Farther wins; of equals the earlier stays.";
+    GreaterOrEqual: >=, "Farther wins; of equals the later.";
+    Equal: ==, "Only fragments of the very depth that is stored.";
+    NotEqual: !=, "Only fragments of another depth than is stored.";
+}
+
+/// Every fragment passes, and its depth is stored.
+#[derive(Debug, Clone, Copy)]
+pub enum Always {}
+
+impl Comparison for Always {
+    #[inline(always)]
+    fn passes(_: u16, _: u16) -> bool {
+        true
+    }
+}
+
+/// What a draw does about depth: [`NoDepth`] or a [`DepthBuffer`].
+pub trait Depth {
+    /// What there is to compare with at one pixel.
+    type Cell<'a>;
+    /// The cells of a span.
+    type Cells<'a>: Iterator<Item = Self::Cell<'a>>
+    where
+        Self: 'a;
+    /// Whether depth is interpolated at all.
+    const ENABLED: bool;
+
+    /// What of `window` can be drawn.
+    fn limit(&self, window: Window) -> Window;
+    /// The cells of `span`.
+    fn cells(&mut self, span: &Span) -> Self::Cells<'_>;
+    /// Compares and stores; whether the fragment is drawn.
+    fn test(cell: Self::Cell<'_>, depth: u16) -> bool;
+}
+
+/// No depth: later drawing covers earlier, and nothing is computed or stored.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoDepth;
+
+impl Depth for NoDepth {
+    type Cell<'a> = ();
+    type Cells<'a> = RepeatN<()>;
+    const ENABLED: bool = false;
+
+    #[inline(always)]
+    fn limit(&self, window: Window) -> Window {
+        window
+    }
+    #[inline(always)]
+    fn cells(&mut self, span: &Span) -> RepeatN<()> {
+        core::iter::repeat_n((), (span.right - span.left) as usize)
+    }
+    #[inline(always)]
+    fn test(_: (), _: u16) -> bool {
+        true
+    }
+}
+
+/// Depths in a [`Target`] of `u16`, 0 near, 65535 far: clear it to [`FAR`] first.
+///
+/// Depth is linear over the screen. A depth in 0…1 is stored as the nearest of 65536 steps; the stored one is within one
+/// step of the true one.
+///
+/// ```
+/// use fixel::{depth::{DepthBuffer, FAR, LessOrEqual}, target::Buffer};
+/// let mut memory = [FAR; 16 * 16];
+/// let depth = DepthBuffer::<_, LessOrEqual>::new(Buffer::new(&mut memory, 16, 16)?);
+/// # Ok::<(), fixel::error::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct DepthBuffer<D, C> {
+    depths: D,
+    comparison: PhantomData<C>,
+}
+
+/// What to clear a depth buffer to: the far end of the range.
+pub const FAR: u16 = u16::MAX;
+
+impl<D: Target<Pixel = u16>, C: Comparison> DepthBuffer<D, C> {
+    /// Tests against `depths` and writes what passes there.
+    pub fn new(depths: D) -> Self {
+        DepthBuffer {
+            depths,
+            comparison: PhantomData,
+        }
+    }
+}
+
+impl<D: Target<Pixel = u16>, C: Comparison> Depth for DepthBuffer<D, C> {
+    type Cell<'a> = &'a mut u16;
+    type Cells<'a>
+        = core::slice::IterMut<'a, u16>
+    where
+        Self: 'a;
+    const ENABLED: bool = true;
+
+    #[inline(always)]
+    fn limit(&self, window: Window) -> Window {
+        window.intersect(self.depths.window())
+    }
+    #[inline(always)]
+    fn cells(&mut self, span: &Span) -> core::slice::IterMut<'_, u16> {
+        let window = self.depths.window();
+        pixels(&mut self.depths, window, span).iter_mut()
+    }
+    #[inline(always)]
+    fn test(cell: &mut u16, depth: u16) -> bool {
+        let passes = C::passes(depth, *cell);
+        if passes {
+            *cell = depth;
+        }
+        passes
+    }
+}

@@ -1,0 +1,110 @@
+//! The walk: from corners on the screen to pixels in the target.
+
+use crate::depth::Depth;
+use crate::fragment::Fragment;
+use crate::gradient::{Basis, Plane, Ramp};
+use crate::num::Word;
+use crate::screen::{Corner, Shape};
+use crate::span::{doubled_area, scan};
+use crate::target::{Target, pixels};
+use crate::varying::Varying;
+
+/// Draws a triangle with corners within ±4096 px, whichever way they run, onto a target within 0…4096 px.
+///
+/// Coverage is that of exact geometry under the top-left rule, so that triangles which share an edge share no pixel and
+/// leave none out. A triangle without area draws nothing.
+///
+/// ```
+/// use fixel::{depth::NoDepth, draw, fragment::Flat, screen::Position, target::Buffer};
+/// let mut picture = [b'.'; 8 * 4];
+/// let corners = [(0, 0), (0, 4), (8, 0)].map(|(x, y)| Position::from_pixels(x, y).flat());
+/// draw::triangle(&mut Buffer::new(&mut picture, 8, 4)?, &mut NoDepth, corners, &Flat(b'#'));
+/// let rows: Vec<_> = picture.chunks(8).map(|row| str::from_utf8(row).unwrap()).collect();
+/// assert_eq!(rows, ["########", "######..", "####....", "##......"]);
+/// # Ok::<(), fixel::error::Error>(())
+/// ```
+#[inline]
+pub fn triangle<C, D, F>(
+    color: &mut C,
+    depth: &mut D,
+    corners: [Corner<F::Varying>; 3],
+    fragment: &F,
+) where
+    C: Target,
+    D: Depth,
+    F: Fragment<Pixel = C::Pixel>,
+{
+    polygon::<i32, _, _, _, _>(color, depth, &corners, doubled_area(&corners), fragment);
+}
+
+/// Draws a convex polygon whose corners lie within ±[`Word::GUARD`] px; `area` is its [`doubled_area`].
+///
+/// Corners may repeat, and may be a subpixel off convexity, as rounding leaves them.
+#[inline]
+pub fn polygon<W, C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, area: i64, fragment: &F)
+where
+    W: Word,
+    C: Target,
+    D: Depth,
+    S: Shape<Varying = F::Varying>,
+    F: Fragment<Pixel = C::Pixel>,
+{
+    let Some(basis) = Basis::new(shape) else {
+        return;
+    };
+    let count = shape.count();
+    let depth_plane = if D::ENABLED {
+        Some(depth_plane(&basis, shape))
+    } else {
+        None
+    };
+    let planes = F::Varying::planes(&basis, count, |i| shape.varying(i));
+    let window = color.window();
+    scan::<W>(shape, area > 0, depth.limit(window), |span| {
+        let ramp = depth_plane
+            .as_ref()
+            .map(|plane| plane.ramp(&span))
+            .unwrap_or_default();
+        let ramps = F::Varying::ramps(&planes, &span);
+        let cells = depth.cells(&span);
+        shade::<D, F>(
+            pixels(color, window, &span),
+            cells,
+            ramp,
+            &planes,
+            ramps,
+            fragment,
+        );
+    });
+}
+
+/// One span. Depth is tested before anything else is looked at.
+#[inline(always)]
+fn shade<D: Depth, F: Fragment>(
+    pixels: &mut [F::Pixel],
+    cells: D::Cells<'_>,
+    mut depth: Ramp<i32>,
+    planes: &<F::Varying as Varying>::Planes,
+    mut ramps: <F::Varying as Varying>::Ramps,
+    fragment: &F,
+) {
+    for (pixel, cell) in pixels.iter_mut().zip(cells) {
+        // Rounded to the nearest step: the value lies in 0…65535, so that the sum fits 31 bits.
+        if D::test(cell, ((depth.value + (1 << 14)) >> 15) as u16)
+            && let Some(new) = fragment.shade(F::Varying::values(planes, &ramps), *pixel)
+        {
+            *pixel = new;
+        }
+        depth.advance();
+        F::Varying::advance(&mut ramps);
+    }
+}
+
+fn depth_plane(basis: &Basis, shape: &impl Shape) -> Plane {
+    let (mut least, mut most) = (i32::MAX, i32::MIN);
+    for i in 0..shape.count() {
+        let d = shape.depth(i);
+        (least, most) = (least.min(d), most.max(d));
+    }
+    basis.plane(basis.corners().map(|i| shape.depth(i)), (least, most))
+}

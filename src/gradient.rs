@@ -1,0 +1,237 @@
+//! Values that are linear over the screen: one plane per polygon, the same bits for every window of the picture.
+//!
+//! A corner's value is an integer of at most 2^30 either way, in units that its user chooses (a depth in 2^-15 steps, a
+//! channel in 2^-16 levels). The plane through the corners of the polygon's largest triangle is kept as the value at one
+//! pixel and two steps, in units of 2^-14 of that. Evaluating it is exact integer arithmetic on absolute positions.
+//!
+//! **Error.** Each step is the exact one cut towards zero, by 2^-14 unit and by 2^-28 of itself (normalised numerator,
+//! reciprocal, product). At n_x columns and n_y rows from the anchor that is (n_x + n_y)·2^-14 unit + 2^-28·(|step_x|·n_x
+//! + |step_y|·n_y). Along a span the cut steps add up to no more than (n − 1)·2^-14 unit, or with 32-bit stepping
+//! (n − 1) units.
+//!
+//! **Range.** The first value of a span is clamped so that it *and* the last lie between the least and the largest corner
+//! value. The steps being cut towards zero, such a start exists, and so every value of every pixel is one that the polygon
+//! could have: nothing wraps, nothing overshoots, slivers included, whatever their gradient.
+
+use crate::edge::{SUBPIXEL_BITS, SUBPIXELS};
+use crate::num::reciprocal;
+use crate::span::{Corners, Span};
+
+/// Bits below a unit of a corner's value.
+pub const EXTRA_BITS: u32 = 14;
+
+/// |steps| are saturated here: a polygon that is wider than one pixel in any row stays below (2^31 per pixel).
+const STEP_LIMIT: i64 = 1 << (31 + EXTRA_BITS);
+
+const _: () = {
+    // From the anchor to any sample of the polygon are less than 2·GUARD columns and as many rows.
+    let reach = 2 * <i64 as crate::num::Word>::GUARD as i64;
+    assert!(reach.checked_mul(STEP_LIMIT).is_some() && reach * STEP_LIMIT <= 1 << 61);
+};
+
+/// The triangle of a polygon's corners through which its planes are laid: the one of largest area, corner 0 among them.
+#[derive(Debug, Clone, Copy)]
+pub struct Basis {
+    corners: [usize; 3],
+    /// Corner 0's pixel and its place in it, in subpixels.
+    anchor: (i32, i32),
+    fraction: (i32, i32),
+    /// The other two corners relative to corner 0, in subpixels.
+    first: (i64, i64),
+    second: (i64, i64),
+    /// Reciprocal of the doubled area: 1/area = reciprocal · 2^-(63 − shift), and the area's sign.
+    reciprocal: u32,
+    shift: i32,
+    negative: bool,
+}
+
+impl Basis {
+    /// `None` for a polygon without area.
+    #[inline]
+    pub fn new(corners: &impl Corners) -> Option<Self> {
+        let origin = corners.position(0);
+        let from_origin = |i| {
+            let (x, y) = corners.position(i);
+            ((x - origin.0) as i64, (y - origin.1) as i64)
+        };
+        let (mut area, mut best) = (0i64, 1);
+        let mut previous = from_origin(1);
+        for i in 2..corners.count() {
+            let next = from_origin(i);
+            let doubled = previous.0 * next.1 - previous.1 * next.0;
+            if doubled.unsigned_abs() > area.unsigned_abs() {
+                (area, best) = (doubled, i - 1);
+            }
+            previous = next;
+        }
+        if area == 0 {
+            return None;
+        }
+        // Normalised to 32 bits and rounded up, so that its reciprocal, and with it every step, is never too large.
+        let magnitude = area.unsigned_abs();
+        let shift = 32 - magnitude.leading_zeros() as i32;
+        let divisor = if shift > 0 {
+            ((magnitude + ((1u64 << shift) - 1)) >> shift).min(u32::MAX as u64) as u32
+        } else {
+            (magnitude << -shift) as u32
+        };
+        Some(Basis {
+            corners: [0, best, best + 1],
+            anchor: (origin.0 >> SUBPIXEL_BITS, origin.1 >> SUBPIXEL_BITS),
+            fraction: (origin.0 & (SUBPIXELS - 1), origin.1 & (SUBPIXELS - 1)),
+            first: from_origin(best),
+            second: from_origin(best + 1),
+            // 2^63/divisor is 2^32 for the least divisor only; one less is an error of 2^-32.
+            reciprocal: reciprocal(divisor).min(u32::MAX as u64) as u32,
+            shift,
+            negative: area < 0,
+        })
+    }
+
+    /// Indices of the polygon's corners whose values [`plane`](Self::plane) wants.
+    #[inline(always)]
+    pub fn corners(&self) -> [usize; 3] {
+        self.corners
+    }
+
+    /// The plane through `values` at the three [`corners`](Self::corners); `range` holds the least and the largest value
+    /// of all corners of the polygon. |values| ≤ 2^30, or all in 0…2^31−1.
+    #[inline]
+    pub fn plane(&self, values: [i32; 3], range: (i32, i32)) -> Plane {
+        let [origin, a, b] = values.map(i64::from);
+        let (da, db) = (a - origin, b - origin);
+        // |d| < 2^31, positions within 2^24 of each other: below 2^56.
+        let step_x = self.step(da * self.second.1 - db * self.first.1);
+        let step_y = self.step(db * self.first.0 - da * self.second.0);
+        let offset =
+            (step_x * self.fraction.0 as i64 + step_y * self.fraction.1 as i64) >> SUBPIXEL_BITS;
+        Plane {
+            anchor: self.anchor,
+            value: (origin << EXTRA_BITS) - offset,
+            step_x,
+            step_y,
+            range,
+        }
+    }
+
+    /// `numerator` / area in units of 2^-14 per pixel, cut towards zero.
+    #[inline]
+    fn step(&self, numerator: i64) -> i64 {
+        let magnitude = numerator.unsigned_abs();
+        if magnitude == 0 {
+            return 0;
+        }
+        // numerator = top · 2^-up, 1/area = reciprocal · 2^(−63 − shift); times 256 subpixels, times 2^14.
+        let up = magnitude.leading_zeros() as i32 - 32;
+        let top = if up >= 0 {
+            magnitude << up
+        } else {
+            magnitude >> -up
+        };
+        let product = top * self.reciprocal as u64;
+        let down = 63 + self.shift + up - (SUBPIXEL_BITS + EXTRA_BITS) as i32;
+        // product ≥ 2^62: with `down` at 16 or less the quotient is 2^46 or more, over the limit.
+        let quotient = if down > 63 {
+            0
+        } else if down < 17 {
+            STEP_LIMIT
+        } else {
+            ((product >> down) as i64).min(STEP_LIMIT)
+        };
+        if (numerator < 0) != self.negative {
+            -quotient
+        } else {
+            quotient
+        }
+    }
+}
+
+/// A value that is linear over the screen; see the [module](self).
+#[derive(Debug, Clone, Copy)]
+pub struct Plane {
+    anchor: (i32, i32),
+    value: i64,
+    step_x: i64,
+    step_y: i64,
+    range: (i32, i32),
+}
+
+/// Only where a polygon's other corners were rounded off the plane, so that it leaves their range by the rounding.
+#[cold]
+fn steepest(step: i64, steps: i64, range: i64) -> i64 {
+    range.checked_div(steps).unwrap_or(0) * step.signum()
+}
+
+/// A value along a span and its step per column, in the same units.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Ramp<V> {
+    /// The value at the current column.
+    pub value: V,
+    /// What the next column adds.
+    pub step: V,
+}
+
+impl Ramp<i32> {
+    /// One column on.
+    #[inline(always)]
+    pub fn advance(&mut self) {
+        // Wrapping: the step after the last pixel may leave the range.
+        self.value = self.value.wrapping_add(self.step);
+    }
+}
+
+impl Ramp<i64> {
+    /// One column on.
+    #[inline(always)]
+    pub fn advance(&mut self) {
+        self.value = self.value.wrapping_add(self.step);
+    }
+}
+
+impl Plane {
+    /// At the first column of `span`, in units of the corners' values: 32-bit stepping.
+    #[inline(always)]
+    pub fn ramp(&self, span: &Span) -> Ramp<i32> {
+        let start = (self.at(span) >> EXTRA_BITS) as i64;
+        // Cut towards zero once more: a span of n pixels is off by less than n − 1 units at its end.
+        let step = self.step_x / (1 << EXTRA_BITS);
+        let (value, step) = self.within(start, step, span, 0);
+        Ramp {
+            value: value as i32,
+            step: step as i32,
+        }
+    }
+
+    /// At the first column of `span`, in units of 2^-14 of the corners' values: 64-bit stepping.
+    #[inline(always)]
+    pub fn fine_ramp(&self, span: &Span) -> Ramp<i64> {
+        let (value, step) = self.within(self.at(span), self.step_x, span, EXTRA_BITS);
+        Ramp { value, step }
+    }
+
+    /// The plane at the first covered column of the row, on the window or not.
+    #[inline(always)]
+    fn at(&self, span: &Span) -> i64 {
+        let columns = (span.whole_left - self.anchor.0) as i64;
+        let rows = (span.row - self.anchor.1) as i64;
+        self.value + self.step_x * columns + self.step_y * rows
+    }
+
+    /// `start` moved so that it and the last value of the whole span lie in the corners' range, then taken to the
+    /// first column on the window.
+    #[inline(always)]
+    fn within(&self, start: i64, step: i64, span: &Span, extra: u32) -> (i64, i64) {
+        let (least, most) = (
+            (self.range.0 as i64) << extra,
+            (self.range.1 as i64) << extra,
+        );
+        let steps = (span.whole_right - span.whole_left - 1) as i64;
+        let mut step = step;
+        if (step * steps).abs() > most - least {
+            step = steepest(step, steps, most - least);
+        }
+        let rise = step * steps;
+        let start = start.min(most - rise.max(0)).max(least - rise.min(0));
+        (start + step * (span.left - span.whole_left) as i64, step)
+    }
+}

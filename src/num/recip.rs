@@ -1,0 +1,57 @@
+//! Reciprocals without a divider.
+
+/// floor(2^63 / `divisor`), exactly, for a normalised divisor in 2^31…2^32−1; the result lies in 2^31…2^32.
+///
+/// A seed from a table of 128 entries is within 2^-8, each of two Newton steps squares the error, and a last
+/// comparison with the remainder removes what is left (numerics: a 128-entry table and two steps give 2^-31). No divide
+/// instruction, so that a core without one pays the same. A divisor below 2^31 is taken as 2^31.
+///
+/// ```
+/// use fixel::num::reciprocal;
+/// assert_eq!(reciprocal(1 << 31), 1 << 32);
+/// assert_eq!(reciprocal(3 << 30), (1 << 63) / (3 << 30));
+/// ```
+#[inline]
+pub fn reciprocal(divisor: u32) -> u64 {
+    let divisor = divisor.max(1 << 31);
+    let seed = SEEDS
+        .get(((divisor >> 24) & 127) as usize)
+        .copied()
+        .unwrap_or(u16::MAX);
+    // x ≈ 2^63/divisor, at most 2^32 − 1 through the steps so that the products fit 64 bits.
+    let mut x = (seed as u64) << 16;
+    for _ in 0..2 {
+        // x·(2 − d·x) with d·x in units of 2^-63: the difference from 2^63 keeps its sign in 64 bits.
+        let error = (1u64 << 63).wrapping_sub(x.wrapping_mul(divisor as u64)) as i64;
+        let correction = ((error >> 31) * (x as i64 >> 1)) >> 31;
+        x = (x as i64 + correction).clamp(1 << 31, u32::MAX as i64) as u64;
+    }
+    // |remainder| is below a few divisors now (`tests/reciprocal.rs` walks the mantissas): step to the exact floor.
+    let mut remainder = (1u64 << 63).wrapping_sub(x.wrapping_mul(divisor as u64)) as i64;
+    while remainder < 0 {
+        remainder += divisor as i64;
+        x -= 1;
+    }
+    while remainder >= divisor as i64 {
+        remainder -= divisor as i64;
+        x += 1;
+    }
+    x
+}
+
+/// seed·2^16 ≈ 2^63 / divisor for the divisors that share their top eight bits, 128 + i.
+const SEEDS: [u16; 128] = {
+    let mut seeds = [0; 128];
+    let mut i = 0;
+    while i < 128 {
+        // The middle of the interval is (128 + i + ½)·2^24: 2^63 over that, over 2^16.
+        let seed = (1u64 << 47) / (((257 + 2 * i as u64) << 24) >> 1);
+        seeds[i] = if seed > u16::MAX as u64 {
+            u16::MAX
+        } else {
+            seed as u16
+        };
+        i += 1;
+    }
+    seeds
+};

@@ -1,0 +1,156 @@
+//! Where pixels go: rows in, slices out, any pixel type.
+
+use crate::error::Error;
+use crate::window::Window;
+
+/// A picture, or a rectangle of one, that lends its rows.
+///
+/// Positions are those of the whole picture: a target that holds rows 16 to 31 is asked for row 16 first. That is why a
+/// picture drawn strip by strip has the same bits as one drawn whole.
+///
+/// A complete implementation, for a display buffer with its columns reversed in memory... is not possible, since rows are
+/// slices; one for two buffers of a double-height panel is:
+///
+/// ```
+/// use fixel::{target::Target, window::Window};
+///
+/// /// A panel whose upper and lower half are separate buffers.
+/// struct SplitPanel {
+///     upper: [u16; 16 * 8],
+///     lower: [u16; 16 * 8],
+/// }
+///
+/// impl Target for SplitPanel {
+///     type Pixel = u16;
+///
+///     fn window(&self) -> Window {
+///         Window::new(0, 0, 16, 16)
+///     }
+///
+///     fn row(&mut self, row: i32) -> &mut [u16] {
+///         let half = if row < 8 { &mut self.upper } else { &mut self.lower };
+///         let start = (row as usize % 8) * 16;
+///         half.get_mut(start..start + 16).unwrap_or_default()
+///     }
+/// }
+///
+/// use fixel::{depth::NoDepth, draw, fragment::Flat, screen::Position};
+/// let mut panel = SplitPanel { upper: [0; 128], lower: [0; 128] };
+/// let corners = [(2, 2), (2, 14), (14, 2)].map(|(x, y)| Position::from_pixels(x, y));
+/// draw::triangle(&mut panel, &mut NoDepth, corners.map(|p| p.flat()), &Flat(7));
+/// assert_eq!(panel.upper[2 * 16 + 2], 7);
+/// assert_eq!(panel.lower[0 * 16 + 2], 7);
+/// ```
+pub trait Target {
+    /// Anything that can be copied: RGB565 words, bytes, an own struct.
+    type Pixel: Copy;
+
+    /// The rows and columns of the picture that are here.
+    fn window(&self) -> Window;
+
+    /// The pixels of `row` from the window's left to its right; `row` is one of the window's. A shorter slice is allowed
+    /// and loses what lies beyond its end.
+    fn row(&mut self, row: i32) -> &mut [Self::Pixel];
+}
+
+/// Rows in a slice, `stride` pixels apart: a whole picture, or a strip or tile of a larger one.
+///
+/// ```
+/// use fixel::{target::{Buffer, Target}, window::Window};
+/// let mut memory = [0u16; 320 * 16];
+/// // The second of fifteen strips of a 320×240 picture.
+/// let mut strip = Buffer::strip(&mut memory, Window::new(0, 16, 320, 32))?;
+/// assert_eq!(strip.row(16).len(), 320);
+/// # Ok::<(), fixel::error::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Buffer<'a, P> {
+    pixels: &'a mut [P],
+    stride: usize,
+    window: Window,
+}
+
+impl<'a, P: Copy> Buffer<'a, P> {
+    /// A whole picture of `width` × `height` pixels, row after row.
+    ///
+    /// # Errors
+    /// [`Error::BufferTooSmall`] where `pixels` holds fewer; [`Error::TooLarge`] beyond 32768 pixels a side.
+    pub fn new(pixels: &'a mut [P], width: u16, height: u16) -> Result<Self, Error> {
+        Self::strip(pixels, Window::new(0, 0, width as i32, height as i32))
+    }
+
+    /// The part `window` of a picture, row after row.
+    ///
+    /// # Errors
+    /// As [`with_stride`](Self::with_stride).
+    pub fn strip(pixels: &'a mut [P], window: Window) -> Result<Self, Error> {
+        Self::with_stride(pixels, window.width(), window)
+    }
+
+    /// The part `window` of a picture, its rows `stride` pixels apart.
+    ///
+    /// # Errors
+    /// [`Error::BufferTooSmall`] where `pixels` is too short or `stride` less than the width, [`Error::TooLarge`] for a
+    /// window with a side beyond ±32768.
+    pub fn with_stride(pixels: &'a mut [P], stride: usize, window: Window) -> Result<Self, Error> {
+        let Window {
+            left,
+            top,
+            right,
+            bottom,
+        } = window;
+        if [left, top, right, bottom]
+            .iter()
+            .any(|side| side.unsigned_abs() > 32768)
+        {
+            return Err(Error::TooLarge);
+        }
+        let rows_before_last = window.height().saturating_sub(1);
+        let needed = stride
+            .checked_mul(rows_before_last)
+            .and_then(|n| n.checked_add(window.width()));
+        if stride < window.width() || !window.is_empty() && needed.is_none_or(|n| n > pixels.len())
+        {
+            return Err(Error::BufferTooSmall);
+        }
+        Ok(Buffer {
+            pixels,
+            stride,
+            window,
+        })
+    }
+}
+
+impl<P: Copy> Target for Buffer<'_, P> {
+    type Pixel = P;
+
+    #[inline(always)]
+    fn window(&self) -> Window {
+        self.window
+    }
+
+    #[inline(always)]
+    fn row(&mut self, row: i32) -> &mut [P] {
+        let start = (row - self.window.top) as usize * self.stride;
+        let width = (self.window.right - self.window.left) as usize;
+        self.pixels
+            .get_mut(start..)
+            .and_then(|rest| rest.get_mut(..width))
+            .unwrap_or_default()
+    }
+}
+
+/// The pixels of `target` that `span` covers; empty where the target's row is shorter than its window.
+#[inline(always)]
+pub(crate) fn pixels<'t, C: Target>(
+    target: &'t mut C,
+    window: Window,
+    span: &crate::span::Span,
+) -> &'t mut [C::Pixel] {
+    let row = target.row(span.row);
+    let skip = (span.left - window.left) as usize;
+    let count = (span.right - span.left) as usize;
+    row.get_mut(skip..)
+        .and_then(|rest| rest.get_mut(..count))
+        .unwrap_or_default()
+}
