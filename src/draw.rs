@@ -24,12 +24,8 @@ use crate::varying::Varying;
 /// # Ok::<(), fixel::error::Error>(())
 /// ```
 #[inline]
-pub fn triangle<C, D, F>(
-    color: &mut C,
-    depth: &mut D,
-    corners: [Corner<F::Varying>; 3],
-    fragment: &F,
-) where
+pub fn triangle<C, D, F>(color: &mut C, depth: &mut D, corners: [Corner<F::Varying>; 3], fragment: &F)
+where
     C: Target,
     D: Depth,
     F: Fragment<Pixel = C::Pixel>,
@@ -61,20 +57,10 @@ where
     let planes = F::Varying::planes(&basis, count, |i| shape.varying(i));
     let window = color.window();
     scan::<W>(shape, area > 0, depth.limit(window), |span| {
-        let ramp = depth_plane
-            .as_ref()
-            .map(|plane| plane.ramp(&span))
-            .unwrap_or_default();
+        let ramp = depth_plane.as_ref().map(|plane| plane.ramp(&span)).unwrap_or_default();
         let ramps = F::Varying::ramps(&planes, &span);
         let cells = depth.cells(&span);
-        shade::<D, F>(
-            pixels(color, window, &span),
-            cells,
-            ramp,
-            &planes,
-            ramps,
-            fragment,
-        );
+        shade::<D, F>(pixels(color, window, &span), cells, ramp, &planes, ramps, fragment);
     });
 }
 

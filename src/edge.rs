@@ -23,14 +23,8 @@ pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
 
 const _: () = {
     let extent = 2 * SUBPIXELS as i64 * <i32 as Word>::GUARD as i64;
-    assert!(
-        2 * SUBPIXELS as i64 * extent <= 1 << 30,
-        "the first remainder fits i32"
-    );
-    assert!(
-        SUBPIXELS as i64 * extent <= 1 << 29,
-        "twice the denominator fits i32"
-    );
+    assert!(2 * SUBPIXELS as i64 * extent <= 1 << 30, "the first remainder fits i32");
+    assert!(SUBPIXELS as i64 * extent <= 1 << 29, "twice the denominator fits i32");
 };
 
 /// The first row whose samples lie at or below `y` (in subpixels): ceil.

@@ -26,11 +26,7 @@ pub trait Fragment {
     type Pixel: Copy;
 
     /// The new pixel over `below`, or `None` to leave the colour as it is (the depth has been stored by then).
-    fn shade(
-        &self,
-        values: <Self::Varying as Varying>::Values,
-        below: Self::Pixel,
-    ) -> Option<Self::Pixel>;
+    fn shade(&self, values: <Self::Varying as Varying>::Values, below: Self::Pixel) -> Option<Self::Pixel>;
 }
 
 /// One colour for the whole primitive.

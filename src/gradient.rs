@@ -103,8 +103,7 @@ impl Basis {
         // |d| < 2^31, positions within 2^24 of each other: below 2^56.
         let step_x = self.step(da * self.second.1 - db * self.first.1);
         let step_y = self.step(db * self.first.0 - da * self.second.0);
-        let offset =
-            (step_x * self.fraction.0 as i64 + step_y * self.fraction.1 as i64) >> SUBPIXEL_BITS;
+        let offset = (step_x * self.fraction.0 as i64 + step_y * self.fraction.1 as i64) >> SUBPIXEL_BITS;
         Plane {
             anchor: self.anchor,
             value: (origin << EXTRA_BITS) - offset,
@@ -123,11 +122,7 @@ impl Basis {
         }
         // numerator = top · 2^-up, 1/area = reciprocal · 2^(−63 − shift); times 256 subpixels, times 2^14.
         let up = magnitude.leading_zeros() as i32 - 32;
-        let top = if up >= 0 {
-            magnitude << up
-        } else {
-            magnitude >> -up
-        };
+        let top = if up >= 0 { magnitude << up } else { magnitude >> -up };
         let product = top * self.reciprocal as u64;
         let down = 63 + self.shift + up - (SUBPIXEL_BITS + EXTRA_BITS) as i32;
         // product ≥ 2^62: with `down` at 16 or less the quotient is 2^46 or more, over the limit.
@@ -221,10 +216,7 @@ impl Plane {
     /// first column on the window.
     #[inline(always)]
     fn within(&self, start: i64, step: i64, span: &Span, extra: u32) -> (i64, i64) {
-        let (least, most) = (
-            (self.range.0 as i64) << extra,
-            (self.range.1 as i64) << extra,
-        );
+        let (least, most) = ((self.range.0 as i64) << extra, (self.range.1 as i64) << extra);
         let steps = (span.whole_right - span.whole_left - 1) as i64;
         let mut step = step;
         if (step * steps).abs() > most - least {

@@ -38,9 +38,7 @@ impl<T: Word> Matrix<T> {
 
     /// 1 on the diagonal.
     pub fn identity() -> Self {
-        Matrix(Block::from_integers([
-            1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
-        ]))
+        Matrix(Block::from_integers([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]))
     }
 
     /// `self` · `other`: `other` acts on the point first.
@@ -58,15 +56,8 @@ impl<T: Word> Matrix<T> {
         let [a, b, c, d] = self.rows();
         let [x, y, z, w] = other.columns();
         let row = |r: [T; 4]| [dot(r, x), dot(r, y), dot(r, z), dot(r, w)];
-        let [
-            [a0, a1, a2, a3],
-            [b0, b1, b2, b3],
-            [c0, c1, c2, c3],
-            [d0, d1, d2, d3],
-        ] = [row(a), row(b), row(c), row(d)];
-        let entries = [
-            a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3,
-        ];
+        let [[a0, a1, a2, a3], [b0, b1, b2, b3], [c0, c1, c2, c3], [d0, d1, d2, d3]] = [row(a), row(b), row(c), row(d)];
+        let entries = [a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3];
         Matrix(Block::from_wide(
             entries,
             self.0.exponent().saturating_add(other.0.exponent()),
@@ -221,11 +212,7 @@ impl<T: Word> Directions<T> {
     ///
     /// # Errors
     /// [`Error::ZeroVector`] for an axis of length 0.
-    pub fn rotate<S: Trigonometry>(
-        &mut self,
-        angle: Angle,
-        axis: Block<T, 3>,
-    ) -> Result<(), Error> {
+    pub fn rotate<S: Trigonometry>(&mut self, angle: Angle, axis: Block<T, 3>) -> Result<(), Error> {
         let (a, b, c) = rotation_rows::<T, S>(angle, axis)?;
         self.multiply([a, b, c].map(|row| Block::new(row, -(T::BITS as i32))));
         Ok(())
@@ -245,12 +232,7 @@ impl<T: Word> Directions<T> {
     ///
     /// # Errors
     /// [`Error::ZeroVector`] where eye and center coincide or up is parallel to the view.
-    pub fn look_at(
-        &mut self,
-        eye: Block<T, 3>,
-        center: Block<T, 3>,
-        up: Block<T, 3>,
-    ) -> Result<(), Error> {
+    pub fn look_at(&mut self, eye: Block<T, 3>, center: Block<T, 3>, up: Block<T, 3>) -> Result<(), Error> {
         self.0 = look_at_rows(eye, center, up)?.map(|row| Block::new(row, -(T::BITS as i32)));
         Ok(())
     }
@@ -270,17 +252,12 @@ impl<T: Word> Directions<T> {
     fn multiply(&mut self, other: [Block<T, 3>; 3]) {
         let [[a, b, c], [d, e, f], [g, h, i]] = other.map(Block::split);
         let columns = [[a, d, g], [b, e, h], [c, f, i]].map(Block::gather);
-        self.0 = self
-            .0
-            .map(|row| Block::gather(columns.map(|column| row.dot(column))));
+        self.0 = self.0.map(|row| Block::gather(columns.map(|column| row.dot(column))));
     }
 }
 
 /// The rows of a rotation in units of 2^-BITS: x² + c(1−x²), xy − c·xy − z·s and so on, with unit axis (x, y, z).
-fn rotation_rows<T: Word, S: Trigonometry>(
-    angle: Angle,
-    axis: Block<T, 3>,
-) -> Result<([T; 3], [T; 3], [T; 3]), Error> {
+fn rotation_rows<T: Word, S: Trigonometry>(angle: Angle, axis: Block<T, 3>) -> Result<([T; 3], [T; 3], [T; 3]), Error> {
     let [x, y, z] = axis.unit().ok_or(Error::ZeroVector)?;
     let (sin, cos) = S::sin_cos::<T>(angle);
     let one = T::ONE << T::BITS;
@@ -299,11 +276,7 @@ fn rotation_rows<T: Word, S: Trigonometry>(
 }
 
 /// The rows (s, u, −f) of a view, unit vectors in units of 2^-BITS.
-fn look_at_rows<T: Word>(
-    eye: Block<T, 3>,
-    center: Block<T, 3>,
-    up: Block<T, 3>,
-) -> Result<[[T; 3]; 3], Error> {
+fn look_at_rows<T: Word>(eye: Block<T, 3>, center: Block<T, 3>, up: Block<T, 3>) -> Result<[[T; 3]; 3], Error> {
     let vector = |unit: [T; 3]| Block::new(unit, -(T::BITS as i32));
     let f = center.minus(eye).unit().ok_or(Error::ZeroVector)?;
     let s = vector(f).cross(up).unit().ok_or(Error::ZeroVector)?;

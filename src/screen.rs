@@ -50,10 +50,7 @@ impl Position {
     /// assert_eq!(Position::from_pixels(3, -1).x().to_bits(), 768);
     /// ```
     pub const fn from_pixels(x: i16, y: i16) -> Self {
-        Self::nearest(
-            SubPx::from_bits((x as i32) << 8),
-            SubPx::from_bits((y as i32) << 8),
-        )
+        Self::nearest(SubPx::from_bits((x as i32) << 8), SubPx::from_bits((y as i32) << 8))
     }
 
     /// (x, y), each moved to the nearest coordinate within ±4096 px.

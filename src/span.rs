@@ -79,12 +79,7 @@ pub fn doubled_area(corners: &impl Corners) -> i64 {
 /// assert_eq!(spans, [(0, 0..2), (1, 0..1)]);
 /// ```
 #[inline]
-pub fn scan<W: Word>(
-    corners: &impl Corners,
-    ccw: bool,
-    window: Window,
-    mut draw: impl FnMut(Span),
-) {
+pub fn scan<W: Word>(corners: &impl Corners, ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
     let count = corners.count();
     let mut top = 0;
     let mut lowest = i32::MIN;

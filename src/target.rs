@@ -109,15 +109,10 @@ impl<'a, P: Copy> Buffer<'a, P> {
         let needed = stride
             .checked_mul(rows_before_last)
             .and_then(|n| n.checked_add(window.width()));
-        if stride < window.width() || !window.is_empty() && needed.is_none_or(|n| n > pixels.len())
-        {
+        if stride < window.width() || !window.is_empty() && needed.is_none_or(|n| n > pixels.len()) {
             return Err(Error::BufferTooSmall);
         }
-        Ok(Buffer {
-            pixels,
-            stride,
-            window,
-        })
+        Ok(Buffer { pixels, stride, window })
     }
 }
 
@@ -142,11 +137,7 @@ impl<P: Copy> Target for Buffer<'_, P> {
 
 /// The pixels of `target` that `span` covers; empty where the target's row is shorter than its window.
 #[inline(always)]
-pub(crate) fn pixels<'t, C: Target>(
-    target: &'t mut C,
-    window: Window,
-    span: &crate::span::Span,
-) -> &'t mut [C::Pixel] {
+pub(crate) fn pixels<'t, C: Target>(target: &'t mut C, window: Window, span: &crate::span::Span) -> &'t mut [C::Pixel] {
     let row = target.row(span.row);
     let skip = (span.left - window.left) as usize;
     let count = (span.right - span.left) as usize;

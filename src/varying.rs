@@ -218,11 +218,7 @@ impl Divisor {
 }
 
 #[inline]
-fn planes<const N: usize>(
-    basis: &Basis,
-    count: usize,
-    corner: impl Fn(usize) -> [i32; N],
-) -> [Plane; N] {
+fn planes<const N: usize>(basis: &Basis, count: usize, corner: impl Fn(usize) -> [i32; N]) -> [Plane; N] {
     let [a, b, c] = basis.corners().map(&corner);
     let mut ranges = ranges(count, corner).into_iter();
     let mut corners = a.into_iter().zip(b).zip(c);

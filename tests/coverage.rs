@@ -19,13 +19,10 @@ fn scanned<W: Word>(triangle: [Point; 3], window: Window) -> Vec<bool> {
     let area = doubled_area(&triangle);
     if area != 0 {
         scan::<W>(&triangle, area > 0, window, |span| {
-            assert!(
-                span.left < span.right && span.left >= window.left && span.right <= window.right
-            );
+            assert!(span.left < span.right && span.left >= window.left && span.right <= window.right);
             assert!(span.row >= window.top && span.row < window.bottom);
             for x in span.left..span.right {
-                let i =
-                    (span.row - window.top) as usize * window.width() + (x - window.left) as usize;
+                let i = (span.row - window.top) as usize * window.width() + (x - window.left) as usize;
                 assert!(
                     !std::mem::replace(&mut covered[i], true),
                     "sample ({x}, {}) covered twice",
@@ -111,18 +108,10 @@ fn random_triangle(random: &mut Random) -> [Point; 3] {
             [a, b, c]
         }
         2 => [a, near(random, a, 2000), near(random, a, 2000)],
-        3 => [
-            a,
-            near(random, a, 300),
-            (random.within(G), random.within(G)),
-        ],
+        3 => [a, near(random, a, 300), (random.within(G), random.within(G))],
         4 => {
             let whole = |p: Point| (p.0 & !255, p.1 & !255);
-            [
-                whole(a),
-                whole(near(random, a, 4000)),
-                whole(near(random, a, 4000)),
-            ]
+            [whole(a), whole(near(random, a, 4000)), whole(near(random, a, 4000))]
         }
         _ => [a, (a.0, random.within(G)), (random.within(G), a.1)],
     }
@@ -134,10 +123,7 @@ fn window_near(random: &mut Random, triangle: [Point; 3]) -> Window {
     let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
     let t = random.below(1025) as i64;
     let on = |u: i32, v: i32| (u + ((v - u) as i64 * t / 1024) as i32) >> 8;
-    let (x, y) = (
-        on(a.0, b.0) - 8 + random.within(6),
-        on(a.1, b.1) - 8 + random.within(6),
-    );
+    let (x, y) = (on(a.0, b.0) - 8 + random.within(6), on(a.1, b.1) - 8 + random.within(6));
     Window::new(x, y, x + 16, y + 16)
 }
 
@@ -243,26 +229,17 @@ fn the_top_left_rule_in_pictures() {
     };
     // The diagonal belongs to the triangle on its right: there it is a left edge.
     assert_eq!(
-        draw(&[
-            ([(0, 0), (0, 4), (4, 0)], b'a'),
-            ([(4, 0), (0, 4), (4, 4)], b'b')
-        ]),
+        draw(&[([(0, 0), (0, 4), (4, 0)], b'a'), ([(4, 0), (0, 4), (4, 4)], b'b')]),
         ["aaaa....", "aaab....", "aabb....", "abbb....", "........"]
     );
     // Left and top edges are in, right and bottom edges out, whichever way the corners run.
     assert_eq!(
-        draw(&[
-            ([(1, 1), (6, 1), (6, 4)], b'c'),
-            ([(6, 4), (1, 4), (1, 1)], b'd')
-        ]),
+        draw(&[([(1, 1), (6, 1), (6, 4)], b'c'), ([(6, 4), (1, 4), (1, 1)], b'd')]),
         ["........", ".ccccc..", ".ddccc..", ".ddddc..", "........"]
     );
     // No area, no pixel.
     assert_eq!(
-        draw(&[([(1, 1), (3, 3), (5, 5)], b'e')])
-            .concat()
-            .matches('e')
-            .count(),
+        draw(&[([(1, 1), (3, 3), (5, 5)], b'e')]).concat().matches('e').count(),
         0
     );
 }

@@ -72,9 +72,7 @@ impl<T: Word, const N: usize> Block<T, N> {
         let exponent = numbers.iter().map(top).fold(i32::MIN, i32::max);
         let wide = numbers.map(|s| {
             let [m] = s.mantissas;
-            let gap = exponent
-                .saturating_sub(s.exponent)
-                .clamp(0, 2 * T::BITS as i32) as u32;
+            let gap = exponent.saturating_sub(s.exponent).clamp(0, 2 * T::BITS as i32) as u32;
             (m.widen() << T::BITS) >> gap
         });
         Self::from_wide(wide, exponent.saturating_sub(T::BITS as i32))
@@ -169,14 +167,8 @@ impl<T: Word, const N: usize> Block<T, N> {
         if d == T::ZERO {
             return None;
         }
-        let (block, d) = if d < T::ZERO {
-            (self.negated(), -d)
-        } else {
-            (self, d)
-        };
-        let quotients = block
-            .mantissas
-            .map(|m| (m.widen() << T::BITS).div_floor(d.widen()));
+        let (block, d) = if d < T::ZERO { (self.negated(), -d) } else { (self, d) };
+        let quotients = block.mantissas.map(|m| (m.widen() << T::BITS).div_floor(d.widen()));
         let exponent = block
             .exponent
             .saturating_sub(divisor.exponent)
@@ -248,11 +240,9 @@ impl<T: Word> Block<T, 3> {
         }
         let one = T::ONE << T::BITS;
         // The root is rounded down, so that a quotient can pass 1 by a unit.
-        Some(self.mantissas.map(|m| {
-            (m.widen() << T::BITS)
-                .div_floor(length)
-                .narrow()
-                .clamp(-one, one)
-        }))
+        Some(
+            self.mantissas
+                .map(|m| (m.widen() << T::BITS).div_floor(length).narrow().clamp(-one, one)),
+        )
     }
 }

@@ -14,10 +14,7 @@
 #[inline]
 pub fn reciprocal(divisor: u32) -> u64 {
     let divisor = divisor.max(1 << 31);
-    let seed = SEEDS
-        .get(((divisor >> 24) & 127) as usize)
-        .copied()
-        .unwrap_or(u16::MAX);
+    let seed = SEEDS.get(((divisor >> 24) & 127) as usize).copied().unwrap_or(u16::MAX);
     // x ≈ 2^63/divisor, at most 2^32 − 1 through the steps so that the products fit 64 bits.
     let mut x = (seed as u64) << 16;
     for _ in 0..2 {
@@ -46,11 +43,7 @@ const SEEDS: [u16; 128] = {
     while i < 128 {
         // The middle of the interval is (128 + i + ½)·2^24: 2^63 over that, over 2^16.
         let seed = (1u64 << 47) / (((257 + 2 * i as u64) << 24) >> 1);
-        seeds[i] = if seed > u16::MAX as u64 {
-            u16::MAX
-        } else {
-            seed as u16
-        };
+        seeds[i] = if seed > u16::MAX as u64 { u16::MAX } else { seed as u16 };
         i += 1;
     }
     seeds

@@ -72,10 +72,8 @@ impl Trigonometry for SineTable {
         let radians = T::from_q62(((rest as i128 * HALF_PI as i128) >> 62) as i64);
         let (sin_rest, versine_rest) = small_angle(radians);
         let one = T::ONE << T::BITS;
-        let turned_sin =
-            (sin - fraction(sin, versine_rest) + fraction(cos, sin_rest)).clamp(-one, one);
-        let turned_cos =
-            (cos - fraction(cos, versine_rest) - fraction(sin, sin_rest)).clamp(-one, one);
+        let turned_sin = (sin - fraction(sin, versine_rest) + fraction(cos, sin_rest)).clamp(-one, one);
+        let turned_cos = (cos - fraction(cos, versine_rest) - fraction(sin, sin_rest)).clamp(-one, one);
         match quarter {
             0 => (turned_sin, turned_cos),
             1 => (turned_cos, -turned_sin),
@@ -205,12 +203,11 @@ pub(super) const SINES_62: [i64; 65] = [
 
 /// sin(i·π/128) in units of 2^-30, rounded to nearest; `tests/trigonometry.rs` computes it again.
 pub(super) const SINES_30: [i32; 65] = [
-    0x0, 0x192155f, 0x323ecbe, 0x4b54825, 0x645e9af, 0x7d59396, 0x9640837, 0xaf10a22, 0xc7c5c1e,
-    0xe05c135, 0xf8cfcbe, 0x1111d263, 0x1294062f, 0x14135c94, 0x158f9a76, 0x17088531, 0x187de2a7,
-    0x19ef7944, 0x1b5d100a, 0x1cc66e99, 0x1e2b5d38, 0x1f8ba4dc, 0x20e70f32, 0x223d66a8, 0x238e7673,
-    0x24da0a9a, 0x261feffa, 0x275ff452, 0x2899e64a, 0x29cd9578, 0x2afad269, 0x2c216eaa, 0x2d413ccd,
-    0x2e5a1070, 0x2f6bbe45, 0x30761c18, 0x317900d6, 0x32744493, 0x3367c090, 0x34534f41, 0x3536cc52,
-    0x361214b0, 0x36e5068a, 0x37af8159, 0x387165e3, 0x392a9642, 0x39daf5e8, 0x3a8269a3, 0x3b20d79e,
-    0x3bb6276e, 0x3c42420a, 0x3cc511d9, 0x3d3e82ae, 0x3dae81cf, 0x3e14fdf7, 0x3e71e759, 0x3ec52fa0,
-    0x3f0ec9f5, 0x3f4eaafe, 0x3f84c8e2, 0x3fb11b48, 0x3fd39b5a, 0x3fec43c7, 0x3ffb10c1, 0x40000000,
+    0x0, 0x192155f, 0x323ecbe, 0x4b54825, 0x645e9af, 0x7d59396, 0x9640837, 0xaf10a22, 0xc7c5c1e, 0xe05c135, 0xf8cfcbe,
+    0x1111d263, 0x1294062f, 0x14135c94, 0x158f9a76, 0x17088531, 0x187de2a7, 0x19ef7944, 0x1b5d100a, 0x1cc66e99,
+    0x1e2b5d38, 0x1f8ba4dc, 0x20e70f32, 0x223d66a8, 0x238e7673, 0x24da0a9a, 0x261feffa, 0x275ff452, 0x2899e64a,
+    0x29cd9578, 0x2afad269, 0x2c216eaa, 0x2d413ccd, 0x2e5a1070, 0x2f6bbe45, 0x30761c18, 0x317900d6, 0x32744493,
+    0x3367c090, 0x34534f41, 0x3536cc52, 0x361214b0, 0x36e5068a, 0x37af8159, 0x387165e3, 0x392a9642, 0x39daf5e8,
+    0x3a8269a3, 0x3b20d79e, 0x3bb6276e, 0x3c42420a, 0x3cc511d9, 0x3d3e82ae, 0x3dae81cf, 0x3e14fdf7, 0x3e71e759,
+    0x3ec52fa0, 0x3f0ec9f5, 0x3f4eaafe, 0x3f84c8e2, 0x3fb11b48, 0x3fd39b5a, 0x3fec43c7, 0x3ffb10c1, 0x40000000,
 ];

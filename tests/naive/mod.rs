@@ -32,9 +32,7 @@ pub fn covers([a, b, c]: [Point; 3], x: i32, y: i32) -> bool {
 /// The exact value at (x, y) of what is linear over the triangle and v0, v1, v2 at its corners: numerator, denominator.
 pub fn value([a, b, c]: [Point; 3], [v0, v1, v2]: [i64; 3], x: i32, y: i32) -> (i128, i128) {
     let p = (x * 256, y * 256);
-    let numerator = i128::from(v0) * side(b, c, p)
-        + i128::from(v1) * side(c, a, p)
-        + i128::from(v2) * side(a, b, p);
+    let numerator = i128::from(v0) * side(b, c, p) + i128::from(v1) * side(c, a, p) + i128::from(v2) * side(a, b, p);
     let area = side(a, b, c);
     if area < 0 {
         (-numerator, -area)
