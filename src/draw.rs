@@ -8,6 +8,7 @@ use crate::screen::{Corner, Shape};
 use crate::span::{doubled_area, scan};
 use crate::target::{Target, pixels};
 use crate::varying::Varying;
+use crate::view::{Carried, Vertex, View};
 
 /// Draws a triangle with corners within ±4096 px, whichever way they run, onto a target within 0…4096 px.
 ///
@@ -31,6 +32,27 @@ where
     F: Fragment<Pixel = C::Pixel>,
 {
     polygon::<i32, _, _, _, _>(color, depth, &corners, doubled_area(&corners), fragment);
+}
+
+/// Draws a triangle given in eye space: clips, projects and draws what is left of it.
+///
+/// The example is [`View`]'s.
+pub fn primitive<T, W, C, D, F, const N: usize>(
+    view: &View<T, W, N>,
+    color: &mut C,
+    depth: &mut D,
+    vertices: &[Vertex<T, <F::Varying as Carried>::Vertex>; 3],
+    fragment: &F,
+) where
+    T: Word,
+    W: Word,
+    C: Target,
+    D: Depth,
+    F: Fragment<Pixel = C::Pixel, Varying: Carried>,
+{
+    if let Some(shape) = view.project::<F::Varying>(vertices) {
+        polygon::<W, _, _, _, _>(color, depth, &shape, doubled_area(&shape), fragment);
+    }
 }
 
 /// Draws a convex polygon whose corners lie within ±[`Word::GUARD`] px; `area` is its [`doubled_area`].

@@ -5,6 +5,7 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod clip;
 pub mod depth;
 pub mod draw;
 pub mod edge;
@@ -17,5 +18,6 @@ pub mod screen;
 pub mod span;
 pub mod target;
 pub mod varying;
+pub mod view;
 pub mod viewport;
 pub mod window;

@@ -9,5 +9,22 @@
 //! [`backend::BackEnd`]. Two exist and share no arithmetic: `fixed`, which uses nothing but what firmware could use,
 //! and [`reference`](mod@reference) in float64.
 
+pub mod against;
+pub mod args;
 pub mod backend;
+pub mod compare;
+pub mod exit;
+pub mod files;
+pub mod fixed;
+pub mod interpret;
+pub mod load;
+pub mod lower;
+pub mod maps;
+pub mod outputs;
+pub mod picture;
+pub mod png;
+pub mod reference;
+pub mod render;
+pub mod report;
+pub mod run;
 pub mod scene;

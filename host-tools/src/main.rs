@@ -1,2 +1,13 @@
-//! host-render
-fn main() {}
+//! `host-render`: scenes in, pictures and an explained comparison out. See `fixel_host` for the rooms.
+
+use std::panic::catch_unwind;
+use std::process::ExitCode;
+
+use fixel_host::args::Args;
+use fixel_host::exit::Exit;
+use fixel_host::run::run;
+
+fn main() -> ExitCode {
+    let args = Args::read();
+    catch_unwind(|| run(&args)).unwrap_or(Exit::Internal).into()
+}

@@ -1,4 +1,24 @@
 //! A scene: typed commands, each with its place in the text.
+//!
+//! ```text
+//! bytes -> lex (lines, tokens) -> arguments (numbers, indices, names) -> hw2 (the grammar) -> Scene
+//! ```
+//!
+//! A [`Scene`] is valid by construction: whoever holds one need not check a range, an index or a file name again.
+
+use std::fmt;
+
+pub mod arguments;
+pub mod format;
+pub mod hw2;
+pub mod lex;
+pub mod names;
+mod view;
+
+/// The longest side of a picture or texture, in pixels.
+pub const LONGEST_SIDE: u32 = 1 << 14;
+/// The most pixels of a picture or texture.
+pub const MOST_PIXELS: u64 = 1 << 26;
 
 /// Where something stands in a text, both counted from 1; columns count characters, a tab is one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -9,7 +29,13 @@ pub struct Place {
     pub column: usize,
 }
 
-/// What is wrong with a scene, and where.
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}, column {}", self.line, self.column)
+    }
+}
+
+/// What is wrong with a scene, and where. It prints as `line L, column C: message`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
     /// The offending token.
@@ -17,6 +43,24 @@ pub struct Fault {
     /// What is wrong and what was expected, one line.
     pub message: String,
 }
+
+impl Fault {
+    /// A fault of the token at `place`.
+    pub fn new(place: Place, message: impl Into<String>) -> Self {
+        Self {
+            place,
+            message: message.into(),
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.message)
+    }
+}
+
+impl std::error::Error for Fault {}
 
 /// A valid scene: every argument in range, every index resolved.
 #[derive(Debug, Clone, PartialEq)]

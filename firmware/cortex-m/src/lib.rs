@@ -1,0 +1,66 @@
+//! What the Cortex-M images share: counting instructions and reporting lines.
+//!
+//! Under `-icount shift=0` the emulator's clock advances by 1 ns an instruction, and the 25 MHz SysTick of the MPS2
+//! boards derives from that clock: one tick is exactly 40 instructions, whatever the host.
+
+#![no_std]
+
+use core::sync::atomic::{Ordering::SeqCst, compiler_fence};
+
+use cortex_m::peripheral::{SYST, syst::SystClkSource};
+use cortex_m_semihosting::hprintln;
+use fixel_workloads::machine::{Line, Machine};
+
+/// Instructions in a tick of SysTick: 1 ns each, at 25 MHz.
+const PER_TICK: u32 = 40;
+
+/// SysTick has 24 bits.
+const TICKS: u32 = 0x00ff_ffff;
+
+/// A board that counts by SysTick and reports by semihosting.
+pub struct Board {
+    systick: SYST,
+}
+
+impl Board {
+    /// The board, checked.
+    ///
+    /// # Panics
+    /// When the emulator does not count as it should: without `-icount shift=0`, or one that counts otherwise.
+    pub fn calibrated(systick: SYST) -> Self {
+        let mut board = Board { systick };
+        // The delay loop is two instructions, passed once more than asked for.
+        let counted = board.count(|| cortex_m::asm::delay(1_499_999));
+        assert!(
+            counted.abs_diff(3_000_000) <= 3 * PER_TICK,
+            "calibration: 3000000 instructions counted as {counted}; the emulator needs -icount shift=0"
+        );
+        board
+    }
+}
+
+impl Machine for Board {
+    #[inline(never)]
+    fn count(&mut self, work: impl FnOnce()) -> u32 {
+        self.systick.disable_counter();
+        self.systick.set_clock_source(SystClkSource::Core);
+        self.systick.set_reload(TICKS);
+        self.systick.clear_current();
+        self.systick.enable_counter();
+        compiler_fence(SeqCst);
+        let start = SYST::get_current();
+        work();
+        let end = SYST::get_current();
+        compiler_fence(SeqCst);
+        assert!(
+            !self.systick.has_wrapped(),
+            "a region longer than one period of SysTick"
+        );
+        self.systick.disable_counter();
+        (start.wrapping_sub(end) & TICKS) * PER_TICK
+    }
+
+    fn report(&mut self, line: &Line<'_>) {
+        hprintln!("{}", line);
+    }
+}

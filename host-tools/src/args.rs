@@ -1,0 +1,141 @@
+//! The command line of `host-render`.
+
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
+
+use crate::scene::format::Format;
+
+const EXIT_CODES: &str = "\
+Exit codes: 0 within limits, 1 differs, 2 bad scene or bad usage, 3 file trouble, 4 internal error; of several \
+scenes the largest.
+
+Colours of --diff-out: black equal, blue colour, yellow edge, green depth, cyan texel, magenta pole, orange steep, \
+red unexplained.";
+
+/// Renders scenes with the fixed-point core and with a float64 reference, and says where and why the two differ.
+#[derive(Debug, Clone, Parser)]
+#[command(name = "host-render", version, after_help = EXIT_CODES)]
+pub struct Args {
+    /// Scene files
+    #[arg(required = true, value_name = "SCENE")]
+    pub scenes: Vec<PathBuf>,
+
+    /// Picture of the fixed-point core (one scene) [default: the name in the scene, in --out-dir]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// Where pictures go
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub out_dir: PathBuf,
+
+    /// Format of the scenes [default: told from the text]
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+
+    /// Picture of the float64 reference (one scene)
+    #[arg(long, value_name = "FILE")]
+    pub reference_out: Option<PathBuf>,
+
+    /// Classified difference picture (one scene)
+    #[arg(long, value_name = "FILE")]
+    pub diff_out: Option<PathBuf>,
+
+    /// Also compare both pictures with an existing one (one scene)
+    #[arg(long, value_name = "PNG")]
+    pub against: Option<PathBuf>,
+
+    /// Mask of excused pixels for --against: white is excused (one scene)
+    #[arg(long, value_name = "PNG", requires = "against")]
+    pub ties: Option<PathBuf>,
+
+    /// Depth of the fixed-point core as grey, 0 black to 1 white (one scene)
+    #[arg(long, value_name = "FILE")]
+    pub depth_out: Option<PathBuf>,
+
+    /// One JSON object per scene on standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Args {
+    /// Reads the command line of this process; explains itself and ends the process where that makes no sense.
+    pub fn read() -> Self {
+        Self::from(std::env::args_os()).unwrap_or_else(|error| error.exit())
+    }
+
+    /// Reads a command line, the program's name first.
+    pub fn from<T>(words: impl IntoIterator<Item = T>) -> Result<Self, clap::Error>
+    where
+        T: Into<std::ffi::OsString> + Clone,
+    {
+        let args = Self::try_parse_from(words)?;
+        match args.single_option() {
+            Some(option) if args.scenes.len() > 1 => Err(Self::command().error(
+                ErrorKind::ArgumentConflict,
+                format!("{option} takes one scene, found {}", args.scenes.len()),
+            )),
+            _ => Ok(args),
+        }
+    }
+
+    /// An option given that names one file, and so can serve one scene only.
+    fn single_option(&self) -> Option<&'static str> {
+        [
+            (&self.output, "--output"),
+            (&self.reference_out, "--reference-out"),
+            (&self.diff_out, "--diff-out"),
+            (&self.against, "--against"),
+            (&self.ties, "--ties"),
+            (&self.depth_out, "--depth-out"),
+        ]
+        .into_iter()
+        .find_map(|(file, name)| file.as_ref().map(|_| name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(line: &str) -> bool {
+        Args::from(line.split(' ')).is_err_and(|error| error.exit_code() == 2)
+    }
+
+    #[test]
+    fn the_definition_is_sound() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn options_that_name_one_file_take_one_scene() {
+        for option in [
+            "-o",
+            "--output",
+            "--reference-out",
+            "--diff-out",
+            "--depth-out",
+            "--against",
+            "--against r.png --ties",
+        ] {
+            let one = format!("host-render a.txt {option} x.png");
+            assert!(!refused(&one), "{option}");
+            let two = format!("host-render a.txt b.txt {option} x.png");
+            assert!(refused(&two), "{option}");
+        }
+    }
+
+    #[test]
+    fn bad_usage() {
+        for line in [
+            "host-render",
+            "host-render a.txt --ties t.png",
+            "host-render a.txt --format png",
+            "host-render a.txt --report r.html",
+            "host-render a.txt -o",
+        ] {
+            assert!(refused(line), "{line}");
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Which class a differing pixel belongs to (see [`Class`]), told from the float64 scene alone.
+
+use super::interval::Interval;
+use super::shape::{Claim, Coverage, Shape};
+use super::{Class, picture};
+use crate::reference::{self, byte};
+
+/// One differing pixel.
+pub struct Case<'a> {
+    /// The sample, in px.
+    pub sample: [f64; 2],
+    /// The core's pixel.
+    pub fixed: &'a picture::Pixel,
+    /// The reference's pixel.
+    pub reference: &'a reference::Pixel,
+}
+
+impl Case<'_> {
+    /// The class if both pictures have the same winner, whose shapes these are: *colour*, *pole* or unexplained.
+    pub fn same_winner(&self, own: &[Shape<'_>]) -> Class {
+        let present: Vec<&Shape<'_>> = (own.iter())
+            .filter(|shape| shape.claim(self.sample).is_some())
+            .collect();
+        let [r, g, b, _] = self.reference.color;
+        // With one shape the reference's value is its; of several it is not known which won.
+        let known = (present.len() == 1).then_some([r, g, b]);
+        let verdicts = present.iter().map(|shape| self.fits(shape, known));
+        match best(verdicts) {
+            Verdict::Fits => Class::Colour,
+            Verdict::Pole => Class::Pole,
+            Verdict::Differs => Class::Unexplained,
+        }
+    }
+
+    /// The class if the winners differ, given every shape that may touch the pixel, in any order: *edge*, *depth*, *pole* or
+    /// unexplained.
+    ///
+    /// The core's winner is possible if nothing that certainly covers the sample lies certainly in front of it. Which of
+    /// two came later does not matter: where depths may be equal, either may be in front.
+    pub fn other_winner<'s, 'p: 's>(&self, near: impl Iterator<Item = &'s Shape<'p>>) -> Class {
+        let claims: Vec<(&Shape<'_>, Claim)> = near
+            .filter_map(|shape| Some((shape, shape.claim(self.sample)?)))
+            .collect();
+        let certain = |claim: &Claim| claim.coverage == Coverage::Certain;
+        let of = |primitive: u32| {
+            let number = move |shape: &Shape<'_>| shape.polygon.primitive == primitive;
+            claims.iter().filter(move |(shape, _)| number(shape))
+        };
+        if self.fixed.primitive == 0 {
+            let empty = self.fixed.rgba == [0; 4] && !claims.iter().any(|(_, c)| certain(c));
+            return if empty { Class::Edge } else { Class::Unexplained };
+        }
+        let reference_certain = of(self.reference.primitive).any(|(_, claim)| certain(claim));
+        let hidden = |claim: &Claim| {
+            (claims.iter()).any(|(_, other)| certain(other) && other.depth.high < claim.depth.low)
+        };
+        let mut class = Class::Unexplained;
+        for (shape, claim) in of(self.fixed.primitive).filter(|(_, claim)| !hidden(claim)) {
+            let explained = if !certain(claim) || self.reference.primitive != 0 && !reference_certain {
+                Class::Edge
+            } else if reference_certain {
+                Class::Depth
+            } else {
+                continue;
+            };
+            match self.fits(shape, None) {
+                Verdict::Fits => return explained,
+                Verdict::Pole => class = Class::Pole,
+                Verdict::Differs => {}
+            }
+        }
+        class
+    }
+
+    fn fits(&self, shape: &Shape<'_>, known: Option<[f64; 3]>) -> Verdict {
+        let [r, g, b, alpha] = self.fixed.rgba;
+        let within = |colors: [Interval; 3]| {
+            (colors.iter().zip([r, g, b]))
+                .all(|(c, level)| (byte(c.low)..=byte(c.high)).contains(&level))
+        };
+        match shape.allows(self.sample, known, &within) {
+            _ if alpha != 255 => Verdict::Differs,
+            Some(true) => Verdict::Fits,
+            Some(false) => Verdict::Differs,
+            None => Verdict::Pole,
+        }
+    }
+}
+
+/// Whether a colour can be a shape's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Verdict {
+    Differs,
+    Pole,
+    Fits,
+}
+
+fn best(verdicts: impl Iterator<Item = Verdict>) -> Verdict {
+    verdicts.max().unwrap_or(Verdict::Differs)
+}

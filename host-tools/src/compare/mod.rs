@@ -1,0 +1,181 @@
+//! Comparison of the fixed-point core's picture with the reference's, which explains every differing pixel or says that
+//! it cannot.
+//!
+//! δ of a corner is √2 · 2⁻⁹ px for the snapping plus the stated error of its vertex path; see
+//! [`reference::log`](crate::reference::log). Every allowance is computed from the float64 scene, never from the difference
+//! seen; the constants are in [`stated`].
+
+pub mod interval;
+mod judge;
+pub mod picture;
+mod piece;
+mod shape;
+pub mod stated;
+mod tiles;
+
+use crate::reference::Rendered;
+use judge::Case;
+use picture::FixedPicture;
+use shape::Shape;
+use tiles::Tiles;
+
+/// What became of a pixel. A differing pixel is in the first class that fits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// The same bytes.
+    Equal,
+    /// The same winner; each byte is within the stated arithmetic bound plus what moving the corners by δ changes there.
+    Colour,
+    /// Coverage differs, and the sample lies within δ of an edge, of one made by clipping, or of the border of the depth range.
+    Edge,
+    /// Visibility differs, and the two depths are within one step of 16 bits plus depth gradient times δ.
+    Depth,
+    /// The texture coordinate lies within its bound of a texel's border.
+    Texel,
+    /// The interpolated 1/w is within its bound of 0.
+    Pole,
+    /// A power's base lies so near 0 or 1 that its stated error explains the colour.
+    Steep,
+    /// None of these: a bug.
+    Unexplained,
+}
+
+/// Pixel counts of the classes that explain a difference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Explained {
+    /// [`Class::Colour`].
+    pub colour: u64,
+    /// [`Class::Edge`].
+    pub edge: u64,
+    /// [`Class::Depth`].
+    pub depth: u64,
+    /// [`Class::Texel`].
+    pub texel: u64,
+    /// [`Class::Pole`].
+    pub pole: u64,
+    /// [`Class::Steep`].
+    pub steep: u64,
+}
+
+/// The outcome for a whole picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Pixels covered in the core's picture.
+    pub pixels_drawn: u64,
+    /// Pixels covered in exactly one of the two pictures.
+    pub coverage_differs: u64,
+    /// Pixels of [`Class::Unexplained`].
+    pub unexplained: u64,
+    /// The largest difference of a byte of RGBA.
+    pub max_channel_error: u8,
+    /// Root of the mean square difference over all bytes of RGBA, in levels.
+    pub rmse: f64,
+    /// 20 log₁₀(255 / rmse); none when the pictures are equal.
+    pub psnr: Option<f64>,
+    /// How many differing pixels each class explains.
+    pub explained: Explained,
+    /// The class of every pixel, row by row.
+    pub classes: Vec<Class>,
+}
+
+/// Compares the two pictures of one scene.
+///
+/// # Panics
+///
+/// If the pictures differ in size: they are not of one scene then.
+pub fn compare(fixed: &FixedPicture, reference: &Rendered) -> Comparison {
+    let size = (fixed.width, fixed.height, fixed.pixels.len());
+    let other = (reference.width, reference.height, reference.pixels.len());
+    assert_eq!(size, other, "pictures of one scene have one size");
+    let bytes = reference.bytes();
+    let mut comparison = measured(fixed, reference, &bytes);
+    let differing: Vec<usize> = (0..bytes.len())
+        .filter(|&i| fixed.pixels[i].rgba != bytes[i])
+        .collect();
+    comparison.classes = vec![Class::Equal; bytes.len()];
+    for (&i, class) in differing.iter().zip(classify(fixed, reference, &differing)) {
+        comparison.classes[i] = class;
+        comparison.count(class);
+    }
+    comparison
+}
+
+/// The figures that need no explanation.
+fn measured(fixed: &FixedPicture, reference: &Rendered, bytes: &[[u8; 4]]) -> Comparison {
+    let mut max_channel_error = 0;
+    let mut squares = 0;
+    for (pixel, bytes) in fixed.pixels.iter().zip(bytes) {
+        for (a, b) in pixel.rgba.iter().zip(bytes) {
+            let difference = a.abs_diff(*b);
+            max_channel_error = max_channel_error.max(difference);
+            squares += u64::from(difference) * u64::from(difference);
+        }
+    }
+    let rmse = (squares as f64 / (4 * bytes.len()) as f64).sqrt();
+    let pairs = fixed.pixels.iter().zip(&reference.pixels);
+    let differ = pairs.filter(|(a, b)| (a.primitive == 0) != (b.primitive == 0));
+    Comparison {
+        pixels_drawn: fixed.pixels.iter().filter(|p| p.primitive != 0).count() as u64,
+        coverage_differs: differ.count() as u64,
+        unexplained: 0,
+        max_channel_error,
+        rmse,
+        psnr: (squares > 0).then(|| 20.0 * (255.0 / rmse).log10()),
+        explained: Explained::default(),
+        classes: Vec::new(),
+    }
+}
+
+/// The classes of the differing pixels.
+fn classify(fixed: &FixedPicture, reference: &Rendered, differing: &[usize]) -> Vec<Class> {
+    if differing.is_empty() {
+        return Vec::new();
+    }
+    let (width, height) = (fixed.width, fixed.height);
+    let size = [f64::from(width), f64::from(height)];
+    let shapes: Vec<Shape<'_>> = (reference.polygons.iter())
+        .map(|polygon| Shape::new(polygon, size))
+        .collect();
+    let other_winner = |&i: &usize| fixed.pixels[i].primitive != reference.pixels[i].primitive;
+    let contested: Vec<usize> = differing.iter().copied().filter(other_winner).collect();
+    let tiles = Tiles::new(&shapes, width, height, &contested);
+    let class = |&i: &usize| {
+        let (x, y) = (i % width as usize, i / width as usize);
+        let case = Case {
+            sample: [x as f64, y as f64],
+            fixed: &fixed.pixels[i],
+            reference: &reference.pixels[i],
+        };
+        if other_winner(&i) {
+            return case.other_winner(tiles.near(x, y).iter().map(|&shape| &shapes[shape]));
+        }
+        case.same_winner(of_primitive(&shapes, case.fixed.primitive))
+    };
+    differing.iter().map(class).collect()
+}
+
+/// The shapes of one primitive; they stand together, since primitives are numbered in drawing order.
+fn of_primitive<'a, 'b>(shapes: &'a [Shape<'b>], primitive: u32) -> &'a [Shape<'b>] {
+    let from = shapes.partition_point(|shape| shape.polygon.primitive < primitive);
+    let end = shapes.partition_point(|shape| shape.polygon.primitive <= primitive);
+    &shapes[from..end]
+}
+
+impl Comparison {
+    fn count(&mut self, class: Class) {
+        let counter = match class {
+            Class::Equal => return,
+            Class::Colour => &mut self.explained.colour,
+            Class::Edge => &mut self.explained.edge,
+            Class::Depth => &mut self.explained.depth,
+            Class::Texel => &mut self.explained.texel,
+            Class::Pole => &mut self.explained.pole,
+            Class::Steep => &mut self.explained.steep,
+            Class::Unexplained => &mut self.unexplained,
+        };
+        *counter += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests;

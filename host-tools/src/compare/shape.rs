@@ -1,0 +1,201 @@
+//! A polygon of the log, ready to be asked about samples: does the core cover it, and at what depth?
+
+use super::interval::Interval;
+use super::piece::Piece;
+use super::stated::DEPTH_STEPS;
+use crate::reference::log::{Corner, Polygon, doubled_area};
+
+/// Whether the core covers a sample with a polygon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coverage {
+    /// It may: the sample is within δ of an edge or of the border of the depth range.
+    Perhaps,
+    /// It does.
+    Certain,
+}
+
+/// What a polygon may do at a sample.
+#[derive(Debug, Clone, Copy)]
+pub struct Claim {
+    /// Whether the sample is covered.
+    pub coverage: Coverage,
+    /// z/w as the core may have it, half a step of 16 bits included.
+    pub depth: Interval,
+}
+
+/// A polygon of the log.
+pub struct Shape<'a> {
+    /// The log's entry.
+    pub polygon: &'a Polygon,
+    pieces: Vec<Piece>,
+    /// Whether moving the corners by their reach may turn the polygon over, so that `cull` may decide otherwise.
+    flimsy: bool,
+}
+
+impl<'a> Shape<'a> {
+    /// The polygon in a picture of `size` px.
+    pub fn new(polygon: &'a Polygon, size: [f64; 2]) -> Self {
+        let corners = &polygon.outer;
+        let piece = |i: usize| {
+            let fan = [corners[0], corners[i - 1], corners[i]];
+            Piece::new(fan, polygon.mixed, polygon.gouraud, size)
+        };
+        Self {
+            polygon,
+            pieces: (2..corners.len()).map(piece).collect(),
+            flimsy: doubled_area(corners).abs() <= area_error(corners),
+        }
+    }
+
+    /// First and last column and row, both included, that the core may cover; none if all are off the picture.
+    pub fn bounds(&self, width: u32, height: u32) -> Option<[[usize; 2]; 2]> {
+        let last = [width, height].map(|s| f64::from(s) - 1.0);
+        if self.polygon.wild {
+            return Some(last.map(|last| [0, last as usize]));
+        }
+        let span = |axis: usize| {
+            let ends = self.polygon.outer.iter().map(|c| (c.position[axis], c.reach));
+            let low = ends.clone().map(|(x, r)| x - r).fold(f64::INFINITY, f64::min);
+            let high = ends.map(|(x, r)| x + r).fold(f64::NEG_INFINITY, f64::max);
+            let (first, end) = (low.ceil().max(0.0), high.floor().min(last[axis]));
+            (first <= end).then_some([first as usize, end as usize])
+        };
+        Some([span(0)?, span(1)?])
+    }
+
+    /// What the polygon may do at a sample; none if it certainly does not cover it.
+    pub fn claim(&self, p: [f64; 2]) -> Option<Claim> {
+        if self.polygon.wild {
+            let (coverage, depth) = (Coverage::Perhaps, Interval::ALL);
+            return Some(Claim { coverage, depth });
+        }
+        let on_edges = self.coverage(p)?;
+        let depth = (self.near(p).map(|piece| piece.depth(p))).reduce(Interval::join)?;
+        let range = Interval {
+            low: 0.0,
+            high: 1.0,
+        };
+        if depth.high < range.low || depth.low > range.high {
+            return None;
+        }
+        // The range is decided on the unrounded depth.
+        let coverage = if range.holds(depth) { on_edges } else { Coverage::Perhaps };
+        let depth = depth.widened(DEPTH_STEPS / 65535.0);
+        Some(Claim { coverage, depth })
+    }
+
+    /// Whether the core may have given a sample this colour. None is a pole: any colour.
+    pub fn allows(&self, p: [f64; 2], known: Option<[f64; 3]>, fits: &dyn Fn([Interval; 3]) -> bool) -> Option<bool> {
+        if self.polygon.wild && self.polygon.gouraud {
+            return None;
+        }
+        for piece in self.near(p) {
+            if fits(piece.color(p, known)?) {
+                return Some(true);
+            }
+        }
+        Some(false)
+    }
+
+    fn coverage(&self, p: [f64; 2]) -> Option<Coverage> {
+        let outer = Ring::around(&self.polygon.outer, p);
+        let near_an_edge = !outer.clear;
+        if self.polygon.culled {
+            return (self.flimsy && near_an_edge).then_some(Coverage::Perhaps);
+        }
+        if !outer.inside && !near_an_edge {
+            return None;
+        }
+        let inner = match &self.polygon.inner {
+            Some(corners) => Ring::around(corners, p),
+            None => outer,
+        };
+        let certain = inner.inside && inner.clear && !self.flimsy;
+        Some(if certain { Coverage::Certain } else { Coverage::Perhaps })
+    }
+
+    /// The pieces that a sample may belong to.
+    fn near(&self, p: [f64; 2]) -> impl Iterator<Item = &Piece> {
+        let alone = self.pieces.len() == 1;
+        self.pieces.iter().filter(move |piece| {
+            let ring = || Ring::around(&piece.corners, p);
+            alone || ring().inside || !ring().clear
+        })
+    }
+}
+
+/// Where a sample lies with respect to a convex polygon.
+#[derive(Debug, Clone, Copy)]
+struct Ring {
+    /// On the inner side of every edge.
+    inside: bool,
+    /// No edge, moved with its ends by their reach, can come to lie on it.
+    clear: bool,
+}
+
+impl Ring {
+    fn around(corners: &[Corner], p: [f64; 2]) -> Self {
+        let turn = doubled_area(corners).signum();
+        let mut ring = Self {
+            inside: corners.len() >= 3,
+            clear: true,
+        };
+        for (i, a) in corners.iter().enumerate() {
+            let edge = Edge::between(a, &corners[(i + 1) % corners.len()], p);
+            ring.inside &= edge.side * turn >= 0.0;
+            ring.clear &= edge.clearance > 0.0;
+        }
+        ring
+    }
+}
+
+/// A sample seen from an edge.
+struct Edge {
+    /// The sign tells the side.
+    side: f64,
+    /// Least distance from a point of the edge less that point's reach, in px.
+    clearance: f64,
+}
+
+impl Edge {
+    /// A point at s of the edge is moved by at most δ(s), the mean of the ends' reaches, so that a far end with a large
+    /// reach does not count where it is far. The distance to it less δ(s) is convex in s: its minimum is at an end or where
+    /// the slope is 0.
+    fn between(a: &Corner, b: &Corner, p: [f64; 2]) -> Self {
+        let along = [0, 1].map(|i| b.position[i] - a.position[i]);
+        let length = along[0].hypot(along[1]);
+        let from = |c: &Corner| [0, 1].map(|i| p[i] - c.position[i]);
+        let (to_a, to_b) = (from(a), from(b));
+        let (far_a, far_b) = (to_a[0].hypot(to_a[1]), to_b[0].hypot(to_b[1]));
+        // Seen from the nearer end: the far one may be 10⁸ px away.
+        let near = if far_a <= far_b { to_a } else { to_b };
+        let side = along[0] * near[1] - along[1] * near[0];
+        let ends = (far_a - a.reach).min(far_b - b.reach);
+        if length == 0.0 {
+            let clearance = ends;
+            return Self { side, clearance };
+        }
+        let dot = (along[0] * near[0] + along[1] * near[1]) / length;
+        let foot = if far_a <= far_b { dot } else { length + dot };
+        let away = side.abs() / length;
+        let slope = (b.reach - a.reach) / length;
+        let mut clearance = ends;
+        if slope.abs() < 1.0 {
+            let s = (foot + away * slope / (1.0 - slope * slope).sqrt()).clamp(0.0, length);
+            clearance = clearance.min((s - foot).hypot(away) - (a.reach + slope * s));
+        }
+        Self { side, clearance }
+    }
+}
+
+/// How much the doubled area may change when the corners move by their reaches, to first order and a margin for the second.
+fn area_error(corners: &[Corner]) -> f64 {
+    let n = corners.len();
+    let largest = corners.iter().map(|c| c.reach).fold(0.0, f64::max);
+    let mut error = 0.0;
+    for (i, corner) in corners.iter().enumerate() {
+        let (a, b) = (corners[(i + n - 1) % n].position, corners[(i + 1) % n].position);
+        error += corner.reach * ((b[0] - a[0]).hypot(b[1] - a[1]) + 2.0 * largest);
+    }
+    error
+}

@@ -1,0 +1,203 @@
+//! The only room that opens files.
+//!
+//! A file is written whole or not at all: into a temporary one beside it, which is then renamed over it. A run that
+//! fails or is killed leaves an existing file as it was.
+
+use std::fs::{self, File, OpenOptions, Permissions};
+use std::io::{self, BufReader, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::picture::Picture;
+use crate::png;
+
+/// What went wrong with a file: one line that names it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Trouble(pub String);
+
+impl std::fmt::Display for Trouble {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Trouble {}
+
+fn trouble(path: &Path, verb: &str, error: impl std::fmt::Display) -> Trouble {
+    Trouble(format!("{}: cannot {verb}: {error}", path.display()))
+}
+
+/// The bytes of a file.
+pub fn read(path: &Path) -> Result<Vec<u8>, Trouble> {
+    fs::read(path).map_err(|error| trouble(path, "read", error))
+}
+
+/// A PNG file as a picture.
+pub fn read_picture(path: &Path) -> Result<Picture, Trouble> {
+    let file = File::open(path).map_err(|error| trouble(path, "read", error))?;
+    png::decode(BufReader::new(file)).map_err(|error| trouble(path, "read", error))
+}
+
+/// Whether a texture is there and can be used; the error says why not, without the name.
+pub fn check_texture(path: &Path) -> Result<(), String> {
+    let kind = fs::metadata(path).map_err(|error| error.to_string())?;
+    // A pipe would make us wait for ever for somebody to write.
+    if !kind.is_file() {
+        return Err("not a file".to_owned());
+    }
+    let file = File::open(path).map_err(|error| error.to_string())?;
+    png::check(BufReader::new(file))
+}
+
+/// Tells whether two names mean the same file, whatever their spelling, links included.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Identity {
+    /// An existing file: device and number.
+    Existing(u64, u64),
+    /// A file that is not there yet, or a system that doesn't number files: the name without links or detours.
+    Named(PathBuf),
+}
+
+/// The identity of a file; nothing for a pipe or a device, where writing overwrites nothing.
+pub fn identity(path: &Path) -> Option<Identity> {
+    let path = followed(path);
+    match fs::metadata(&path) {
+        Ok(found) if !found.is_file() && !found.is_dir() => None,
+        Ok(found) => Some(numbered(&found).unwrap_or_else(|| named(&path))),
+        Err(_) => Some(named(&path)),
+    }
+}
+
+#[cfg(unix)]
+fn numbered(found: &fs::Metadata) -> Option<Identity> {
+    use std::os::unix::fs::MetadataExt;
+    Some(Identity::Existing(found.dev(), found.ino()))
+}
+
+#[cfg(not(unix))]
+fn numbered(_: &fs::Metadata) -> Option<Identity> {
+    None
+}
+
+fn named(path: &Path) -> Identity {
+    let inside = |folder: PathBuf| path.file_name().map(|name| folder.join(name));
+    let canonical = fs::canonicalize(path)
+        .ok()
+        .or_else(|| inside(fs::canonicalize(folder_of(path)).ok()?))
+        .or_else(|| std::path::absolute(path).ok());
+    Identity::Named(canonical.unwrap_or_else(|| path.to_owned()))
+}
+
+/// The file that a name finally means: links are followed, also one whose end does not exist yet. The name of a
+/// pipe or device is left alone, as what it links to need not be a path.
+fn followed(path: &Path) -> PathBuf {
+    const MOST_LINKS: usize = 40;
+    let mut path = path.to_owned();
+    if let Ok(found) = fs::metadata(&path) {
+        let file = found.is_file().then(|| fs::canonicalize(&path).ok());
+        return file.flatten().unwrap_or(path);
+    }
+    for _ in 0..MOST_LINKS {
+        let Ok(next) = fs::read_link(&path) else {
+            break;
+        };
+        path = folder_of(&path).join(next);
+    }
+    path
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// A file that is ready to take its place.
+#[derive(Debug)]
+pub struct Staged {
+    name: PathBuf,
+    kind: Kind,
+}
+
+#[derive(Debug)]
+enum Kind {
+    /// Written beside its target, to be renamed over it.
+    Beside(NamedTempFile, PathBuf),
+    /// A pipe or a device, which must not be replaced by a file.
+    Stream(Vec<u8>),
+}
+
+/// Prepares `name` to hold `bytes`. Nothing is changed until [`Staged::commit`]; dropping it changes nothing.
+pub fn stage(name: &Path, bytes: Vec<u8>) -> Result<Staged, Trouble> {
+    let target = followed(name);
+    let kind = match fs::metadata(&target) {
+        Ok(found) if found.is_dir() => {
+            return Err(trouble(name, "write", "it is a directory"));
+        }
+        Ok(found) if !found.is_file() => Kind::Stream(bytes),
+        Ok(found) => {
+            // Renaming needs leave for the folder only; a file its owner has protected stays as it is.
+            OpenOptions::new()
+                .write(true)
+                .open(&target)
+                .map_err(|error| trouble(name, "write", error))?;
+            beside(target, &bytes, Some(found.permissions())).map_err(|error| trouble(name, "write", error))?
+        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            beside(target, &bytes, None).map_err(|error| trouble(name, "write", error))?
+        }
+        Err(error) => return Err(trouble(name, "write", error)),
+    };
+    Ok(Staged {
+        name: name.to_owned(),
+        kind,
+    })
+}
+
+fn beside(target: PathBuf, bytes: &[u8], mode: Option<Permissions>) -> io::Result<Kind> {
+    let named = target.file_name().is_some() && !target.as_os_str().as_encoded_bytes().ends_with(b"/");
+    if !named {
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "expected the name of a file",
+        ));
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".host-render-").suffix(".part");
+    #[cfg(unix)]
+    {
+        // What any program's new file gets, less the umask; without this it would be private.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(folder_of(&target)).map_err(without_name)?;
+    file.write_all(bytes).map_err(without_name)?;
+    if let Some(mode) = mode {
+        file.as_file().set_permissions(mode)?;
+    }
+    Ok(Kind::Beside(file, target))
+}
+
+/// The error without the temporary file's name, which means nothing to the user.
+fn without_name(error: io::Error) -> io::Error {
+    match error.raw_os_error() {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => error.kind().into(),
+    }
+}
+
+impl Staged {
+    /// Puts the file in its place.
+    pub fn commit(self) -> Result<(), Trouble> {
+        let done = match self.kind {
+            Kind::Beside(file, target) => file.persist(target).map(drop).map_err(|e| e.error),
+            Kind::Stream(bytes) => OpenOptions::new()
+                .write(true)
+                .open(&self.name)
+                .and_then(|mut stream| stream.write_all(&bytes)),
+        };
+        done.map_err(|error| trouble(&self.name, "write", error))
+    }
+}

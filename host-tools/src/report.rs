@@ -1,0 +1,161 @@
+//! What a run says about a scene: a line for people, an object for programs.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::against::Agreement;
+use crate::compare::{Comparison, Explained};
+use crate::exit::{Exit, Failure};
+use crate::scene::format::Format;
+
+/// All that is known of a rendered scene.
+#[derive(Debug)]
+pub struct Report {
+    /// The scene's file, as the user named it.
+    pub scene: String,
+    /// Its format.
+    pub format: Format,
+    /// Width of the picture.
+    pub width: u32,
+    /// Height of the picture.
+    pub height: u32,
+    /// Where the two back ends differ and why.
+    pub comparison: Comparison,
+    /// Time to draw with the core.
+    pub seconds_fixed: f64,
+    /// Time to draw with the reference.
+    pub seconds_reference: f64,
+    /// With `--against`: how the core's picture and the reference's compare with the existing one.
+    pub against: Option<[Agreement; 2]>,
+}
+
+impl Report {
+    /// Whether the pictures are within their limits.
+    pub fn exit(&self) -> Exit {
+        let agrees = self
+            .against
+            .is_none_or(|[fixed, reference]| fixed.over_2_percent_outside_ties == 0 && reference.identical);
+        if self.comparison.unexplained == 0 && agrees {
+            Exit::Within
+        } else {
+            Exit::Differs
+        }
+    }
+
+    /// One line for people.
+    pub fn line(&self) -> String {
+        let found = &self.comparison;
+        let mut line = format!(
+            "{}: {}x{}, {} pixels drawn, {} unexplained",
+            self.scene, self.width, self.height, found.pixels_drawn, found.unexplained
+        );
+        let total: u64 = classes(&found.explained).iter().map(|(_, count)| count).sum();
+        push(&mut line, format_args!(", {total} explained"));
+        let mut opening = " (";
+        for (name, count) in classes(&found.explained) {
+            if count > 0 {
+                let share = percent(count, found.pixels_drawn);
+                push(&mut line, format_args!("{opening}{name} {count} = {share:.2} %"));
+                opening = ", ";
+            }
+        }
+        line.push_str(if total > 0 { ")" } else { "" });
+        push(&mut line, format_args!(", largest error {}", found.max_channel_error));
+        match found.psnr {
+            Some(psnr) => push(&mut line, format_args!(", PSNR {psnr:.1} dB")),
+            None => line.push_str(", pictures equal"),
+        }
+        if let Some([fixed, reference]) = self.against {
+            let (outside, all) = (fixed.over_2_percent_outside_ties, fixed.over_2_percent);
+            push(
+                &mut line,
+                format_args!(", against: {outside} over 2 % outside ties, {all} in all, reference "),
+            );
+            line.push_str(if reference.identical {
+                "identical"
+            } else {
+                "NOT identical"
+            });
+        }
+        push(
+            &mut line,
+            format_args!(
+                ", {:.1} ms fixed, {:.1} ms reference",
+                self.seconds_fixed * 1e3,
+                self.seconds_reference * 1e3
+            ),
+        );
+        line
+    }
+
+    /// One object for programs; its keys stay.
+    pub fn json(&self) -> Value {
+        let found = &self.comparison;
+        let explained: serde_json::Map<_, _> = classes(&found.explained)
+            .into_iter()
+            .map(|(name, count)| (name.to_owned(), Value::from(count)))
+            .collect();
+        let mut object = json!({
+            "scene": self.scene,
+            "format": self.format.to_string(),
+            "width": self.width,
+            "height": self.height,
+            "pixels_drawn": found.pixels_drawn,
+            "coverage_differs": found.coverage_differs,
+            "unexplained": found.unexplained,
+            "max_channel_error": found.max_channel_error,
+            "rmse": found.rmse,
+            "psnr": found.psnr,
+            "seconds_fixed": self.seconds_fixed,
+            "seconds_reference": self.seconds_reference,
+            "explained": explained,
+        });
+        if let Some([fixed, reference]) = self.against {
+            object["against_fixed"] = agreement(fixed);
+            object["against_reference"] = agreement(reference);
+        }
+        object
+    }
+}
+
+/// The object of a scene that was not rendered: what was printed, and where in the scene if it was the scene's fault.
+pub fn failure(scene: &Path, failure: &Failure) -> Value {
+    json!({
+        "scene": scene.display().to_string(),
+        "error": failure.message,
+        "exit": failure.exit as u8,
+        "line": failure.place.map(|place| place.line),
+        "column": failure.place.map(|place| place.column),
+    })
+}
+
+fn agreement(agreement: Agreement) -> Value {
+    json!({
+        "over_2_percent": agreement.over_2_percent,
+        "over_2_percent_outside_ties": agreement.over_2_percent_outside_ties,
+        "max_channel_error": agreement.max_channel_error,
+        "identical": agreement.identical,
+    })
+}
+
+fn classes(explained: &Explained) -> [(&'static str, u64); 6] {
+    [
+        ("colour", explained.colour),
+        ("edge", explained.edge),
+        ("depth", explained.depth),
+        ("texel", explained.texel),
+        ("pole", explained.pole),
+        ("steep", explained.steep),
+    ]
+}
+
+fn percent(part: u64, whole: u64) -> f64 {
+    100.0 * part as f64 / whole.max(1) as f64
+}
+
+fn push(line: &mut String, text: std::fmt::Arguments<'_>) {
+    // Writing into a string cannot fail.
+    let _ = line.write_fmt(text);
+}

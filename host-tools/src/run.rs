@@ -1,0 +1,166 @@
+//! The walk of a run: load all scenes, decide who writes what, then render, compare and write each.
+
+use std::io::{self, IsTerminal, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+
+use indicatif::ProgressBar;
+use rayon::prelude::*;
+
+use crate::against::Against;
+use crate::args::Args;
+use crate::exit::{Exit, Failure};
+use crate::files::{self, Staged};
+use crate::load::{Loaded, load};
+use crate::maps;
+use crate::outputs::{Outputs, plan};
+use crate::picture::Picture;
+use crate::png;
+use crate::render::{Rendered, render};
+use crate::report::{self, Report};
+
+/// Does what the command line says and tells how it went.
+pub fn run(args: &Args) -> Exit {
+    let results = match all(args) {
+        Ok(results) => results,
+        Err(exit) => return exit,
+    };
+    let worst = results.iter().map(exit).max().unwrap_or(Exit::Within);
+    match print(args, &results) {
+        Ok(()) => worst,
+        // Nobody listens any more; what was to be written has been.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => worst,
+        Err(error) => {
+            complain(format_args!("cannot write to standard output: {error}"));
+            worst.max(Exit::Files)
+        }
+    }
+}
+
+type Outcome = Result<Report, Failure>;
+
+fn exit(outcome: &Outcome) -> Exit {
+    match outcome {
+        Ok(report) => report.exit(),
+        Err(failure) => failure.exit,
+    }
+}
+
+/// Renders all scenes. Ends early, before anything is rendered, where outputs collide.
+fn all(args: &Args) -> Result<Vec<Outcome>, Exit> {
+    let loaded: Vec<Result<Loaded, Failure>> = args
+        .scenes
+        .par_iter()
+        .map(|file| guarded(file, || load(file, args.format)))
+        .collect();
+    let good: Vec<&Loaded> = loaded.iter().filter_map(|loaded| loaded.as_ref().ok()).collect();
+    let outputs = plan(args, &good).map_err(|collision| {
+        let failures = loaded.iter().filter_map(|loaded| loaded.as_ref().err());
+        let all = failures.chain(std::iter::once(&collision));
+        all.clone()
+            .for_each(|failure| complain(format_args!("{}", failure.message)));
+        all.map(|failure| failure.exit).max().unwrap_or(Exit::Bad)
+    })?;
+    let mut outputs = outputs.into_iter();
+    let jobs: Vec<Result<(Loaded, Outputs), Failure>> = loaded
+        .into_iter()
+        .map(|loaded| {
+            let loaded = loaded?;
+            let outputs = outputs.next().unwrap_or_else(|| Outputs::new(args, &loaded));
+            Ok((loaded, outputs))
+        })
+        .collect();
+    let bar = progress(jobs.len());
+    let outcomes = jobs
+        .into_par_iter()
+        .map(|job| {
+            let outcome = job.and_then(|(loaded, outputs)| guarded(&loaded.file, || one(args, &loaded, &outputs)));
+            bar.inc(1);
+            outcome
+        })
+        .collect();
+    bar.finish_and_clear();
+    Ok(outcomes)
+}
+
+/// A bar for people who wait for several scenes.
+fn progress(scenes: usize) -> ProgressBar {
+    if scenes > 1 && io::stderr().is_terminal() {
+        ProgressBar::new(scenes as u64)
+    } else {
+        ProgressBar::hidden()
+    }
+}
+
+/// One scene must not take the others down with it.
+fn guarded<T>(file: &Path, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|payload| Err(Failure::panic(file, payload.as_ref())))
+}
+
+fn one(args: &Args, loaded: &Loaded, outputs: &Outputs) -> Outcome {
+    let against = Against::read(args, loaded)?;
+    let rendered = render(&loaded.scene).map_err(|fault| Failure::scene(&loaded.file, &fault))?;
+    write(outputs, &rendered)?;
+    Ok(Report {
+        scene: loaded.file.display().to_string(),
+        format: loaded.format,
+        width: loaded.scene.width,
+        height: loaded.scene.height,
+        against: against.map(|against| [&rendered.fixed, &rendered.reference].map(|p| against.agreement(p))),
+        comparison: rendered.comparison,
+        seconds_fixed: rendered.seconds_fixed,
+        seconds_reference: rendered.seconds_reference,
+    })
+}
+
+/// Writes a scene's pictures: all are made ready before the first takes its place.
+fn write(outputs: &Outputs, rendered: &Rendered) -> Result<(), Failure> {
+    let (width, height) = rendered.fixed.size();
+    let mut staged = vec![stage(&outputs.picture, &rendered.fixed)?];
+    if let Some(file) = &outputs.reference {
+        staged.push(stage(file, &rendered.reference)?);
+    }
+    if let Some(file) = &outputs.diff {
+        let diff = maps::classes(width, height, &rendered.comparison.classes);
+        staged.push(stage(file, &diff)?);
+    }
+    if let Some(file) = &outputs.depth {
+        let depth = maps::depths(width, height, &rendered.depth);
+        staged.push(stage(file, &depth)?);
+    }
+    for file in staged {
+        file.commit()?;
+    }
+    Ok(())
+}
+
+fn stage(file: &PathBuf, picture: &Picture) -> Result<Staged, Failure> {
+    let bytes = png::encode(picture).map_err(|error| Failure {
+        exit: Exit::Internal,
+        message: format!("{}: cannot be made into a PNG: {error}", file.display()),
+        place: None,
+    })?;
+    Ok(files::stage(file, bytes)?)
+}
+
+/// Failures go to standard error, first; the rest to standard output, one line per scene, in the scenes' order.
+fn print(args: &Args, outcomes: &[Outcome]) -> io::Result<()> {
+    for failure in outcomes.iter().filter_map(|outcome| outcome.as_ref().err()) {
+        complain(format_args!("{}", failure.message));
+    }
+    let mut out = io::stdout().lock();
+    for (file, outcome) in args.scenes.iter().zip(outcomes) {
+        match outcome {
+            Ok(report) if args.json => writeln!(out, "{}", report.json())?,
+            Ok(report) => writeln!(out, "{}", report.line())?,
+            Err(failure) if args.json => writeln!(out, "{}", report::failure(file, failure))?,
+            Err(_) => {}
+        }
+    }
+    out.flush()
+}
+
+fn complain(message: std::fmt::Arguments<'_>) {
+    // If standard error is gone, there is nobody to tell; the exit code still does.
+    let _ = writeln!(io::stderr(), "{message}");
+}

@@ -1,0 +1,324 @@
+//! The contract of the command line: what is written where, what is refused, and how a run ends.
+
+mod program;
+
+use program::{Folder, Run};
+
+const SCENE: &str = "png 6 5 out.png\nxyz -1 -1 0\nxyz -1 1 0\nxyz 1 -1 0\ncolor 1 .5 .25\ntrif 1 2 3\n";
+
+fn scene(output: &str) -> String {
+    SCENE.replace("out.png", output)
+}
+
+fn refused(run: &Run, what: &str) {
+    assert_eq!(run.code, Some(2), "{run:?}");
+    assert!(run.err.contains(what), "expected {what:?} in {}", run.err);
+}
+
+/// A PNG file of one colour.
+fn picture(width: u32, height: u32, pixel: [u8; 4]) -> Vec<u8> {
+    let pixels = vec![pixel; (width * height) as usize];
+    let picture = fixel_host::picture::Picture::new(width, height, pixels);
+    fixel_host::png::encode(&picture).expect("encoded")
+}
+
+#[test]
+fn a_scene_becomes_a_picture() {
+    let folder = Folder::new();
+    let run = folder.write("a.txt", SCENE).run("a.txt");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    assert_eq!(run.out.lines().count(), 1);
+    assert!(run.out.starts_with("a.txt: 6x5, "), "{}", run.out);
+    assert_eq!(run.err, "");
+    assert_eq!(folder.names(), ["a.txt", "out.png"]);
+    let picture = fixel_host::png::decode(std::io::Cursor::new(folder.read("out.png"))).expect("a PNG file");
+    assert_eq!(picture.size(), (6, 5));
+}
+
+#[test]
+fn every_picture_has_its_option() {
+    let folder = Folder::new();
+    folder.write("a.txt", SCENE);
+    let run = folder.run("a.txt -o f.png --reference-out r.png --diff-out d.png --depth-out z.png");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    assert_eq!(folder.names(), ["a.txt", "d.png", "f.png", "r.png", "z.png"]);
+    assert_eq!(folder.read("f.png"), folder.read("r.png"));
+}
+
+#[test]
+fn out_dir_takes_the_names_of_the_scenes() {
+    let folder = Folder::new();
+    folder.write("a.txt", scene("x.png")).write("b.txt", scene("./y.png"));
+    std::fs::create_dir(folder.path("out")).expect("a folder");
+    let run = folder.run("a.txt b.txt --out-dir out");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    let first: Vec<_> = run.out.lines().map(|line| &line[..5]).collect();
+    assert_eq!(first, ["a.txt", "b.txt"]);
+    assert_eq!(folder.names(), ["a.txt", "b.txt", "out"]);
+    assert!(folder.path("out/x.png").exists() && folder.path("out/y.png").exists());
+}
+
+#[test]
+fn json_has_the_keys_that_stay() {
+    let folder = Folder::new();
+    folder
+        .write("a.txt", SCENE)
+        .write("b.txt", scene("b.png"))
+        .write("bad.txt", "png 1 1 c.png\nxyz");
+    let run = folder.run("--json a.txt bad.txt b.txt");
+    assert_eq!(run.code, Some(2), "{run:?}");
+    let objects: Vec<serde_json::Value> = run
+        .out
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("one object per line"))
+        .collect();
+    let scenes: Vec<_> = objects.iter().map(|object| object["scene"].as_str()).collect();
+    assert_eq!(scenes, [Some("a.txt"), Some("bad.txt"), Some("b.txt")]);
+    let keys = "scene format width height pixels_drawn coverage_differs unexplained max_channel_error rmse psnr \
+                seconds_fixed seconds_reference explained";
+    for key in keys.split_whitespace() {
+        assert!(objects[0].get(key).is_some(), "{key} is missing");
+    }
+    for class in ["colour", "edge", "depth", "texel", "pole", "steep"] {
+        assert!(objects[0]["explained"][class].is_u64(), "{class} is missing");
+    }
+    assert_eq!(
+        (&objects[0]["format"], &objects[0]["width"]),
+        (&"hw2".into(), &6.into())
+    );
+    assert!(objects[0].get("against_fixed").is_none());
+    assert_eq!((&objects[1]["line"], &objects[1]["column"]), (&2.into(), &1.into()));
+}
+
+#[test]
+fn against_counts_what_is_over_two_percent() {
+    let folder = Folder::new();
+    folder.write("a.txt", SCENE);
+    assert_eq!(folder.run("a.txt --reference-out ref.png").code, Some(0));
+    let run = folder.run("a.txt --json --against ref.png");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    let object: serde_json::Value = serde_json::from_str(&run.out).expect("an object");
+    for picture in ["against_fixed", "against_reference"] {
+        let keys = ["over_2_percent", "over_2_percent_outside_ties", "max_channel_error"];
+        assert!(keys.iter().all(|key| object[picture][key] == 0), "{object}");
+        assert_eq!(object[picture]["identical"], true);
+    }
+    folder
+        .write("white.png", picture(6, 5, [255; 4]))
+        .write("ties.png", picture(6, 5, [255; 4]));
+    let run = folder.run("a.txt --json --against white.png");
+    assert_eq!(run.code, Some(1), "{run:?}");
+    let object: serde_json::Value = serde_json::from_str(&run.out).expect("an object");
+    assert_eq!(object["against_fixed"]["over_2_percent_outside_ties"], 30);
+    let run = folder.run("a.txt --json --against white.png --ties ties.png");
+    // Every pixel is excused, but the reference is not the picture.
+    assert_eq!(run.code, Some(1), "{run:?}");
+    let object: serde_json::Value = serde_json::from_str(&run.out).expect("an object");
+    assert_eq!(object["against_fixed"]["over_2_percent"], 30);
+    assert_eq!(object["against_fixed"]["over_2_percent_outside_ties"], 0);
+}
+
+#[test]
+fn what_is_compared_must_fit() {
+    let folder = Folder::new();
+    folder
+        .write("a.txt", SCENE)
+        .write("small.png", picture(5, 5, [0; 4]))
+        .write("ref.png", picture(6, 5, [0; 4]));
+    refused(&folder.run("a.txt --against small.png"), "5x5");
+    refused(&folder.run("a.txt --against ref.png --ties small.png"), "5x5");
+    assert_eq!(folder.run("a.txt --against nosuch.png").code, Some(3));
+    assert_eq!(folder.run("a.txt --against a.txt").code, Some(3));
+    assert_eq!(folder.names(), ["a.txt", "ref.png", "small.png"]);
+}
+
+#[test]
+fn outputs_must_not_collide() {
+    let folder = Folder::new();
+    folder.write("a.txt", SCENE).write("b.txt", scene("./x/../out.png"));
+    refused(&folder.run("a.txt b.txt"), "would both write");
+    refused(&folder.run("a.txt -o x.png --diff-out ./x.png"), "two pictures");
+    refused(&folder.run("a.txt --depth-out out.png"), "two pictures");
+    assert_eq!(folder.names(), ["a.txt", "b.txt"]);
+}
+
+#[test]
+fn what_is_read_is_never_written() {
+    let folder = Folder::new();
+    let png = picture(6, 5, [0; 4]);
+    let textured = scene("t.png").replace("xyz -1 -1 0", "texture t.png\nxyz -1 -1 0");
+    folder
+        .write("a.txt", SCENE)
+        .write("self.txt", scene("self.txt"))
+        .write("t.txt", textured);
+    folder
+        .write("t.png", &png)
+        .write("ref.png", &png)
+        .write("ties.png", &png);
+    for (arguments, what) in [
+        ("self.txt", "overwrite a scene"),
+        ("a.txt -o a.txt", "overwrite a scene"),
+        ("a.txt -o x/../a.txt --out-dir .", "overwrite a scene"),
+        ("t.txt", "overwrite a texture"),
+        ("t.txt -o ok.png --diff-out t.png", "overwrite a texture"),
+        ("a.txt --against ref.png -o ./ref.png", "overwrite --against"),
+        (
+            "a.txt --against ref.png --ties ties.png --depth-out ties.png",
+            "overwrite --ties",
+        ),
+    ] {
+        if arguments.contains("x/..") {
+            std::fs::create_dir(folder.path("x")).expect("a folder");
+        }
+        refused(&folder.run(arguments), what);
+    }
+    assert_eq!(folder.read("t.png"), png);
+    assert_eq!(folder.read("a.txt"), SCENE.as_bytes());
+    assert!(!folder.path("ok.png").exists() && !folder.path("out.png").exists());
+}
+
+#[test]
+fn a_scene_that_fails_takes_no_other_down() {
+    let folder = Folder::new();
+    folder
+        .write("good.txt", scene("good.png"))
+        .write("bad.txt", scene("/bad.png"));
+    let run = folder.run("bad.txt good.txt");
+    assert_eq!(run.code, Some(2), "{run:?}");
+    assert!(run.err.starts_with("bad.txt: line 1, column 9: "), "{}", run.err);
+    assert!(run.out.starts_with("good.txt: "), "{}", run.out);
+    let run = folder.run("nosuch.txt bad.txt good.txt");
+    assert_eq!(run.code, Some(3), "{run:?}");
+    assert_eq!(run.err.lines().count(), 2);
+    assert!(run.err.starts_with("nosuch.txt: cannot read: "), "{}", run.err);
+    assert_eq!(folder.names(), ["bad.txt", "good.png", "good.txt"]);
+}
+
+#[test]
+fn other_formats_and_keywords_are_told_apart() {
+    let folder = Folder::new();
+    folder
+        .write("m.txt", "png 1 1 m.png\nxyzw 0 0 0 1\n sRGB\n")
+        .write("s.iv", "#Inventor V2.0 ascii\nSeparator { }\n")
+        .write("c.obj", "v 0 0 0\n")
+        .write(
+            "n.txt",
+            "png 1 1 n.png\nxyz 0 0 0\n shininess 3\nsunlight 0 0 1\nxyz 0 0 0\nxyz 1 0 0\ntrig 1 2 3\n",
+        );
+    for (arguments, start) in [
+        ("m.txt", "m.txt: line 3, column 2: format mp1 is not supported yet"),
+        ("s.iv", "s.iv: line 1, column 1: format iv is not supported yet"),
+        ("c.obj", "c.obj: line 1, column 1: format obj is not supported yet"),
+        (
+            "n.txt --format obj",
+            "n.txt: line 1, column 1: format obj is not supported yet",
+        ),
+        (
+            "c.obj --format hw2",
+            "c.obj: line 1, column 1: the first command must be png",
+        ),
+        ("n.txt", "n.txt: line 3, column 2: "),
+    ] {
+        let run = folder.run(arguments);
+        assert_eq!(run.code, Some(2), "{run:?}");
+        assert!(run.err.starts_with(start), "{}", run.err);
+    }
+    assert!(folder.run("n.txt").err.contains("not supported yet"));
+    assert_eq!(folder.names(), ["c.obj", "m.txt", "n.txt", "s.iv"]);
+}
+
+#[test]
+fn files_that_cannot_be_had() {
+    let folder = Folder::new();
+    folder.write("a.txt", SCENE);
+    std::fs::create_dir(folder.path("out.png")).expect("a folder");
+    for (arguments, file) in [
+        ("a.txt", "out.png: "),
+        ("a.txt -o nosuch/x.png", "nosuch/x.png: "),
+        ("a.txt --out-dir a.txt", "a.txt/out.png: "),
+        ("a.txt -o x.png --diff-out nosuch/x.png", "nosuch/x.png: "),
+        ("a.txt -o new/", "new/: "),
+        ("out.png", "out.png: cannot read: "),
+    ] {
+        let run = folder.run(arguments);
+        assert_eq!(run.code, Some(3), "{run:?}");
+        assert!(run.err.contains(file), "{}", run.err);
+        assert_eq!(run.err.lines().count(), 1, "{}", run.err);
+    }
+    let run = folder.run("a.txt -o out.png");
+    assert!(run.err.contains("it is a directory"), "{}", run.err);
+    assert_eq!(folder.names(), ["a.txt", "out.png"]);
+}
+
+#[test]
+fn bad_usage() {
+    let folder = Folder::new();
+    folder.write("a.txt", SCENE).write("b.txt", scene("b.png"));
+    for arguments in [
+        "",
+        "--nosuch a.txt",
+        "a.txt b.txt -o x.png",
+        "a.txt --ties t.png",
+        "a.txt --format gif",
+    ] {
+        assert_eq!(folder.run(arguments).code, Some(2), "{arguments}");
+    }
+    assert_eq!(folder.run("--help").code, Some(0));
+    assert_eq!(folder.names(), ["a.txt", "b.txt"]);
+}
+
+#[cfg(unix)]
+mod unix {
+    use super::*;
+    use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+
+    #[test]
+    fn links_hide_no_collision() {
+        let folder = Folder::new();
+        folder.write("a.txt", SCENE).write("b.txt", scene("b.png"));
+        symlink("a.txt", folder.path("soft.png")).expect("a link");
+        symlink("nosuch.png", folder.path("dangling.png")).expect("a link");
+        symlink(".", folder.path("here")).expect("a link");
+        std::fs::hard_link(folder.path("a.txt"), folder.path("hard.png")).expect("a link");
+        for arguments in [
+            "a.txt -o soft.png",
+            "a.txt -o hard.png",
+            "a.txt -o here/a.txt",
+            "a.txt -o dangling.png --diff-out here/nosuch.png",
+            "a.txt --depth-out here/out.png",
+        ] {
+            let run = folder.run(arguments);
+            assert_eq!(run.code, Some(2), "{arguments}: {run:?}");
+        }
+        assert_eq!(folder.read("a.txt"), SCENE.as_bytes());
+    }
+
+    #[test]
+    fn a_link_keeps_pointing_and_a_file_keeps_its_mode() {
+        let folder = Folder::new();
+        folder.write("a.txt", SCENE).write("real.png", "old").write("plain", "");
+        let mode = |name: &str| {
+            let found = std::fs::metadata(folder.path(name)).expect("a file");
+            found.permissions().mode() & 0o777
+        };
+        let narrow = std::fs::Permissions::from_mode(0o640);
+        std::fs::set_permissions(folder.path("real.png"), narrow).expect("a mode");
+        symlink("real.png", folder.path("link.png")).expect("a link");
+        assert_eq!(folder.run("a.txt -o link.png --diff-out new.png").code, Some(0));
+        assert!(folder.path("link.png").is_symlink());
+        assert!(folder.read("real.png").starts_with(b"\x89PNG"));
+        assert_eq!(mode("real.png"), 0o640);
+        assert_eq!(mode("new.png"), mode("plain"), "as any new file");
+    }
+
+    #[test]
+    fn a_device_is_written_to_and_not_replaced() {
+        let folder = Folder::new();
+        let run = folder
+            .write("a.txt", SCENE)
+            .run("a.txt -o /dev/null --diff-out /dev/null");
+        assert_eq!(run.code, Some(0), "{run:?}");
+        let device = std::fs::metadata("/dev/null").expect("a device");
+        assert!(device.file_type().is_char_device());
+    }
+}

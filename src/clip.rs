@@ -1,0 +1,231 @@
+//! Clipping in homogeneous space: user planes, the depth range, the guard band.
+//!
+//! A corner is its position and its *weights*: how much of each of the triangle's three vertices it is made of. A plane
+//! cuts an edge at (a·d_b + b·d_a), with d the distances of its ends, a the inner end: no division, since a homogeneous
+//! point has no scale. The cut depends on the edge's two ends and the plane only, always taken from the inside out, so
+//! that both triangles of an edge get the same bits. What vertices carry is mixed from the weights at the end; clipping
+//! itself costs the same whatever they carry.
+//!
+//! **Error** of a cut: the distances are exact, then kept to [`Word::BITS`] bits of the larger; the position is rounded
+//! once. The cut point lies within 2^(2−BITS) of the largest component of either end from the true one, and on the line
+//! through the two.
+
+use heapless::Vec;
+
+use crate::error::Error;
+use crate::num::{Block, Wide, Word};
+use crate::viewport::Viewport;
+
+/// Corners that a triangle can get from the depth range (2 planes) and the guard band (4 planes).
+const BUILT_IN: usize = 3 + 2 + 4;
+
+/// Which depths z/w are drawn; both ends are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DepthRange {
+    /// 0 to 1 (HW2).
+    ZeroToOne,
+    /// −1 to 1 (OpenGL, MP1 with `depth`).
+    MinusOneToOne,
+    /// All of them: without a depth buffer.
+    Unlimited,
+}
+
+/// What w < 0 means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Behind {
+    /// Behind the camera: cut off (`.iv`, OpenGL).
+    Cut,
+    /// Divided by like any other (HW2, and MP1 without `frustum`).
+    Divide,
+}
+
+/// A polygon's corner on its way to the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ClipCorner<T> {
+    /// Homogeneous position.
+    pub position: Block<T, 4>,
+    /// position = Σ weight · vertex, over the three vertices of the triangle.
+    pub weights: Block<T, 3>,
+}
+
+/// A convex polygon of up to 9 + N corners: three, two more for the depth range, four for the guard band, and one for
+/// each of N user planes.
+#[derive(Debug, Clone)]
+pub struct Polygon<C, const N: usize> {
+    built_in: Vec<C, BUILT_IN>,
+    user: Vec<C, N>,
+}
+
+impl<C: Copy, const N: usize> Default for Polygon<C, N> {
+    fn default() -> Self {
+        Polygon { built_in: Vec::new(), user: Vec::new() }
+    }
+}
+
+impl<C: Copy, const N: usize> Polygon<C, N> {
+    /// Corners.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.built_in.len() + self.user.len()
+    }
+
+    /// Whether nothing is left.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.built_in.is_empty()
+    }
+
+    /// Corner `index`.
+    #[inline]
+    pub fn get(&self, index: usize) -> Option<&C> {
+        self.built_in.get(index).or_else(|| self.user.get(index.wrapping_sub(BUILT_IN)))
+    }
+
+    /// All corners in order.
+    #[inline]
+    pub fn iter(&self) -> impl Iterator<Item = &C> {
+        self.built_in.iter().chain(self.user.iter())
+    }
+
+    /// All corners in order, to change them.
+    #[inline]
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut C> {
+        self.built_in.iter_mut().chain(self.user.iter_mut())
+    }
+
+    /// One corner more; beyond 9 + N it is left out, which [`cut`] never needs.
+    #[inline]
+    pub(crate) fn push(&mut self, corner: C) {
+        if let Err(corner) = self.built_in.push(corner) {
+            let _ = self.user.push(corner);
+        }
+    }
+}
+
+/// The user's clip planes, at most N.
+///
+/// ```
+/// use fixel::{clip::Planes, error::Error, num::Block};
+/// let mut planes = Planes::<i32, 1>::default();
+/// let right_half = Block::from_integers([1, 0, 0, 0]);
+/// assert_eq!(planes.push(right_half), Ok(()));
+/// assert_eq!(planes.push(right_half), Err(Error::TooManyPlanes));
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Planes<T: Word, const N: usize>(Vec<Block<T, 4>, N>);
+
+impl<T: Word, const N: usize> Planes<T, N> {
+    /// Keeps only what has p·(x, y, z, w) ≥ 0 in eye space from now on.
+    ///
+    /// # Errors
+    /// [`Error::TooManyPlanes`] where there are N already.
+    pub fn push(&mut self, plane: Block<T, 4>) -> Result<(), Error> {
+        self.0.push(plane).map_err(|_| Error::TooManyPlanes)
+    }
+
+    /// What of the triangle is left; `None` for nothing.
+    pub fn clip(&self, vertices: [Block<T, 4>; 3]) -> Option<Polygon<ClipCorner<T>, N>> {
+        let one = T::ONE << (T::BITS - 1);
+        let unit = [[one, T::ZERO, T::ZERO], [T::ZERO, one, T::ZERO], [T::ZERO, T::ZERO, one]];
+        let mut polygon = Polygon::default();
+        for (position, weights) in vertices.into_iter().zip(unit) {
+            polygon.push(ClipCorner { position, weights: Block::new(weights, 1 - T::BITS as i32) });
+        }
+        for plane in &self.0 {
+            let [a, b, c, d] = plane.mantissas();
+            cut(&mut polygon, |[x, y, z, w]| a.times(x) + b.times(y) + c.times(z) + d.times(w));
+        }
+        (!polygon.is_empty()).then_some(polygon)
+    }
+}
+
+/// Cuts a polygon in clip space to the depth range and the guard band; every corner that is left has w > 0. `None` for
+/// nothing left, and where a corner has w = 0 and `behind` would divide by it.
+pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
+    mut polygon: Polygon<ClipCorner<T>, N>,
+    viewport: &Viewport<W>,
+    range: DepthRange,
+    behind: Behind,
+) -> Option<Polygon<ClipCorner<T>, N>> {
+    if behind == Behind::Divide {
+        for corner in polygon.iter_mut() {
+            let [.., w] = corner.position.mantissas();
+            if w == T::ZERO {
+                return None;
+            }
+            if w < T::ZERO {
+                // The same point on the screen; the weights keep the sign for what is divided by w.
+                *corner = ClipCorner { position: corner.position.negated(), weights: corner.weights.negated() };
+            }
+        }
+    }
+    match range {
+        DepthRange::ZeroToOne => cut(&mut polygon, |[_, _, z, _]| z.widen()),
+        DepthRange::MinusOneToOne => cut(&mut polygon, |[_, _, z, w]| z.widen() + w.widen()),
+        DepthRange::Unlimited => {}
+    }
+    if range != DepthRange::Unlimited {
+        cut(&mut polygon, |[_, _, z, w]| w.widen() - z.widen());
+    }
+    for side in 0..4 {
+        cut(&mut polygon, |position| viewport.guard_distance(position, side));
+    }
+    let in_front = |corner: &ClipCorner<T>| {
+        let [.., w] = corner.position.mantissas();
+        w > T::ZERO
+    };
+    (!polygon.is_empty() && polygon.iter().all(in_front)).then_some(polygon)
+}
+
+/// Keeps the part of a convex polygon whose distance is at least 0; none of it where no corner's is.
+///
+/// Exactly one run of corners is cut away, the one that holds the outermost, so that a polygon grows by at most one
+/// corner per plane. Rounding can leave another corner a last place outside; it stays where it is.
+fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, distance: impl Fn([T; 4]) -> T::Wide) {
+    let of = |corner: &ClipCorner<T>| distance(corner.position.mantissas());
+    // Mantissas are normalised per corner, so that distances compare as angles do.
+    let Some((outermost, least)) = polygon.iter().map(of).enumerate().min_by_key(|&(_, d)| d) else { return };
+    if least >= T::Wide::ZERO {
+        return;
+    }
+    // Corners counted from the outermost on: 0 and `count` are the outermost itself.
+    let count = polygon.len();
+    let corner = |i: usize| polygon.get(if outermost + i < count { outermost + i } else { outermost + i - count });
+    let is_inside = |&i: &usize| corner(i).is_some_and(|c| of(c) >= T::Wide::ZERO);
+    let mut kept = Polygon::default();
+    if let (Some(first), Some(last)) = ((1..count).find(is_inside), (1..count).rev().find(is_inside)) {
+        let crossing = |inner, outer| corner(inner).zip(corner(outer)).map(|(a, b)| crossing(a, of(a), b, of(b)));
+        let entry = crossing(first, first - 1);
+        let exit = crossing(last, last + 1);
+        let between = (first..=last).filter_map(|i| corner(i).copied());
+        entry.into_iter().chain(between).chain(exit).for_each(|c| kept.push(c));
+    }
+    *polygon = kept;
+}
+
+/// Where the edge from `inner` to `outer` crosses the plane.
+fn crossing<T: Word>(
+    inner: &ClipCorner<T>,
+    inner_distance: T::Wide,
+    outer: &ClipCorner<T>,
+    outer_distance: T::Wide,
+) -> ClipCorner<T> {
+    let (d_in, d_out) = (inner_distance, -outer_distance);
+    let bits = d_in.bit_length().max(d_out.bit_length());
+    let shift = bits.saturating_sub(T::BITS);
+    let (d_in, d_out) = ((d_in >> shift).narrow(), (d_out >> shift).narrow());
+    let mix = |a: T, b: T| a.times(d_out) + b.times(d_in);
+
+    let [ax, ay, az, aw] = inner.position.mantissas();
+    let [bx, by, bz, bw] = outer.position.mantissas();
+    let (a_scale, b_scale) = (inner.position.exponent(), outer.position.exponent());
+    let position = Block::from_wide([mix(ax, bx), mix(ay, by), mix(az, bz), mix(aw, bw)], a_scale.saturating_add(b_scale));
+
+    // Distances in true scale are d_in·2^a_scale and d_out·2^b_scale: weights want those, positions cancelled them.
+    let a_weights = inner.weights.times(Block::new([d_out], b_scale));
+    let b_weights = outer.weights.times(Block::new([d_in], a_scale));
+    let weights = a_weights.plus(b_weights);
+    // Only their ratio counts: back to weights of size 1.
+    let excess = weights.exponent().saturating_add(T::BITS as i32);
+    ClipCorner { position: position.scaled(excess.saturating_neg()), weights: weights.scaled(excess.saturating_neg()) }
+}

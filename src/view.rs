@@ -1,0 +1,301 @@
+//! A view: all that lies between vertices in eye space and a polygon on the screen.
+
+use crate::clip::{Behind, ClipCorner, DepthRange, Planes, Polygon, to_view};
+use crate::matrix::Matrix;
+use crate::num::{Block, Scaled, Word};
+use crate::screen::Shape;
+use crate::span::{Corners, doubled_area};
+use crate::varying::{Linear, Perspective, Varying};
+use crate::viewport::Viewport;
+
+/// Which triangles are drawn, by the way their corners run on the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cull {
+    /// All.
+    Nothing,
+    /// Only those that run counter-clockwise as seen.
+    Clockwise,
+    /// Only those that run clockwise as seen.
+    CounterClockwise,
+}
+
+/// How vertices in eye space become polygons on the screen. `T` is the word of positions, `W` of the edge walk, N the most
+/// user planes.
+///
+/// ```
+/// use fixel::{clip::{Behind, DepthRange, Planes}, matrix::Matrix, num::{Block, Scaled}};
+/// use fixel::{depth::NoDepth, draw, fragment::Flat, target::Buffer, view::{Cull, Vertex, View}, viewport::Viewport};
+///
+/// let view = View::<i32, i32, 0> {
+///     projection: Matrix::frustum([-1, 1, -1, 1, 1, 10].map(Scaled::from_integer))?,
+///     planes: Planes::default(),
+///     viewport: Viewport::new(0, 0, 8, 4)?.y_up(),
+///     depth_range: DepthRange::MinusOneToOne,
+///     behind: Behind::Cut,
+///     cull: Cull::Nothing,
+/// };
+/// let floor = [[-2, -1, -2, 1], [2, -1, -2, 1], [0, -1, 2, 1]]; // one corner is behind the camera
+/// let corners = floor.map(|p| Vertex { position: Block::from_integers(p), carried: () });
+/// let mut picture = [b'.'; 8 * 4];
+/// draw::primitive(&view, &mut Buffer::new(&mut picture, 8, 4)?, &mut NoDepth, &corners, &Flat(b'#'));
+/// assert_eq!(&picture[24..], b"########");
+/// # Ok::<(), fixel::error::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct View<T: Word, W, const N: usize> {
+    /// Eye space to clip space.
+    pub projection: Matrix<T>,
+    /// Clip planes in eye space.
+    pub planes: Planes<T, N>,
+    /// Clip space to the screen.
+    pub viewport: Viewport<W>,
+    /// Which depths are drawn.
+    pub depth_range: DepthRange,
+    /// What w < 0 means.
+    pub behind: Behind,
+    /// Which triangles are drawn.
+    pub cull: Cull,
+}
+
+/// A vertex in eye space and what it carries.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Vertex<T, A> {
+    /// Homogeneous position.
+    pub position: Block<T, 4>,
+    /// Values for the fragments.
+    pub carried: A,
+}
+
+/// A varying that can be mixed from what three vertices carry.
+pub trait Carried: Varying {
+    /// What a vertex carries.
+    type Vertex: Copy;
+    /// Which weights [`mix`](Self::mix) wants.
+    const KIND: Interpolation;
+    /// At a corner of the polygon.
+    fn mix(vertices: [Self::Vertex; 3], weights: Weights) -> Self;
+}
+
+/// How values run between corners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interpolation {
+    /// They do not.
+    Flat,
+    /// Linear over the screen.
+    Linear,
+    /// Linear in space.
+    Perspective,
+}
+
+/// How much of each vertex a corner of the polygon is made of, in units of 2^-30.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Weights {
+    /// Linear: they add up to 1. Perspective: over w, the largest sum of the polygon between a quarter and 1.
+    shares: [i32; 3],
+    /// The vertex that this corner is, unless a plane made it.
+    vertex: Option<usize>,
+    /// The shares are linear ones.
+    linear: bool,
+}
+
+impl Carried for () {
+    type Vertex = ();
+    const KIND: Interpolation = Interpolation::Flat;
+    #[inline(always)]
+    fn mix(_: [(); 3], _: Weights) -> Self {}
+}
+
+impl<const N: usize> Carried for Linear<N> {
+    type Vertex = [i32; N];
+    const KIND: Interpolation = Interpolation::Linear;
+    #[inline]
+    fn mix(vertices: [[i32; N]; 3], weights: Weights) -> Self {
+        Linear(weights.sum(vertices))
+    }
+}
+
+impl<const N: usize> Carried for Perspective<N> {
+    type Vertex = [i32; N];
+    const KIND: Interpolation = Interpolation::Perspective;
+    fn mix(vertices: [[i32; N]; 3], weights: Weights) -> Self {
+        let over_w = weights.sum(vertices);
+        if weights.linear {
+            return Perspective { over_w, inverse: 1 << 30, values: over_w };
+        }
+        let [a, b, c] = weights.shares;
+        let inverse = a + b + c;
+        let values = match weights.pick(vertices) {
+            Some(values) => values,
+            None => over_w.map(|v| {
+                let quotient = ((v as i64) << 30).checked_div(inverse as i64).unwrap_or(0);
+                quotient.clamp(i32::MIN as i64, i32::MAX as i64) as i32
+            }),
+        };
+        Perspective { over_w, inverse, values }
+    }
+}
+
+impl Weights {
+    fn sum<const N: usize>(&self, vertices: [[i32; N]; 3]) -> [i32; N] {
+        if let Some(values) = self.pick(vertices).filter(|_| self.linear) {
+            return values;
+        }
+        let mut sums = [1i64 << 29; N];
+        for (share, values) in self.shares.into_iter().zip(vertices) {
+            for (sum, v) in sums.iter_mut().zip(values) {
+                *sum += share as i64 * v as i64;
+            }
+        }
+        sums.map(|s| (s >> 30) as i32)
+    }
+
+    fn pick<V>(&self, [a, b, c]: [V; 3]) -> Option<V> {
+        match self.vertex? {
+            0 => Some(a),
+            1 => Some(b),
+            _ => Some(c),
+        }
+    }
+}
+
+/// A polygon on the screen and what its corners carry.
+#[derive(Debug)]
+pub struct Projected<V, const N: usize> {
+    corners: Polygon<ProjectedCorner<V>, N>,
+    first: ProjectedCorner<V>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct ProjectedCorner<V> {
+    position: (i32, i32),
+    depth: i32,
+    varying: V,
+}
+
+impl<V: Copy, const N: usize> Projected<V, N> {
+    #[inline]
+    fn corner(&self, index: usize) -> &ProjectedCorner<V> {
+        self.corners.get(index).unwrap_or(&self.first)
+    }
+}
+
+impl<V: Copy, const N: usize> Corners for Projected<V, N> {
+    #[inline]
+    fn count(&self) -> usize {
+        self.corners.len()
+    }
+    #[inline]
+    fn position(&self, index: usize) -> (i32, i32) {
+        self.corner(index).position
+    }
+}
+
+impl<V: Varying, const N: usize> Shape for Projected<V, N> {
+    type Varying = V;
+    #[inline]
+    fn depth(&self, index: usize) -> i32 {
+        self.corner(index).depth
+    }
+    #[inline]
+    fn varying(&self, index: usize) -> V {
+        self.corner(index).varying
+    }
+}
+
+impl<T: Word, W: Word, const N: usize> View<T, W, N> {
+    /// The polygon that is left of a triangle on the screen: clipped, projected, snapped, culled. `None` for nothing.
+    pub fn project<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3]) -> Option<Projected<V, N>> {
+        let eye = vertices.each_ref().map(|v| v.position);
+        let carried = vertices.each_ref().map(|v| v.carried);
+        let mut polygon = self.planes.clip(eye)?;
+        for corner in polygon.iter_mut() {
+            corner.position = self.projection.transform(corner.position);
+        }
+        let polygon = to_view(polygon, &self.viewport, self.depth_range, self.behind)?;
+
+        let weigh = Weigh::new(&polygon, eye.map(|p| w_of(self.projection.transform(p))), V::KIND);
+        let mut corners = polygon.iter().filter_map(|corner| {
+            let (x, y, depth) = self.viewport.place(corner.position, self.depth_range)?;
+            Some(ProjectedCorner { position: (x, y), depth, varying: V::mix(carried, weigh.weights(corner)) })
+        });
+        let first = corners.next()?;
+        let mut projected = Projected { corners: Polygon::default(), first };
+        projected.corners.push(first);
+        corners.for_each(|corner| projected.corners.push(corner));
+
+        let area = doubled_area(&projected);
+        let drawn = match self.cull {
+            Cull::Nothing => area != 0,
+            Cull::Clockwise => area > 0,
+            Cull::CounterClockwise => area < 0,
+        };
+        drawn.then_some(projected)
+    }
+}
+
+/// How the weights of a polygon's corners become shares.
+struct Weigh<T> {
+    /// w of the three vertices.
+    vertex_w: [Scaled<T>; 3],
+    interpolation: Interpolation,
+    /// Perspective: every corner's sum of |weight| over w is at most 2^magnitude, and the largest more than a quarter.
+    magnitude: i32,
+}
+
+impl<T: Word> Weigh<T> {
+    fn new<const N: usize>(
+        polygon: &Polygon<ClipCorner<T>, N>,
+        vertex_w: [Scaled<T>; 3],
+        interpolation: Interpolation,
+    ) -> Self {
+        let [a, b, c] = vertex_w;
+        let interpolation = match interpolation {
+            // With the same w everywhere, linear in space is linear over the screen.
+            Interpolation::Perspective if a == b && b == c => Interpolation::Linear,
+            other => other,
+        };
+        let mut magnitude = i32::MIN;
+        if interpolation == Interpolation::Perspective {
+            for corner in polygon.iter() {
+                if let Some(over_w) = corner.weights.over(w_of(corner.position)) {
+                    let [x, y, z] = over_w.split().map(|s| if s.mantissas() < [T::ZERO] { s.negated() } else { s });
+                    let sum = x.plus(y).plus(z);
+                    magnitude = magnitude.max(sum.exponent().saturating_add(T::BITS as i32));
+                }
+            }
+        }
+        Weigh { vertex_w, interpolation, magnitude }
+    }
+
+    fn weights(&self, corner: &ClipCorner<T>) -> Weights {
+        let zero = T::ZERO;
+        let vertex = match corner.weights.mantissas() {
+            [_, b, c] if b == zero && c == zero => Some(0),
+            [a, _, c] if a == zero && c == zero => Some(1),
+            [a, b, _] if a == zero && b == zero => Some(2),
+            _ => None,
+        };
+        let w = w_of(corner.position);
+        let shares = match self.interpolation {
+            Interpolation::Flat => [0; 3],
+            // Σ weight·w of the vertices is the corner's w: the shares add up to 1.
+            Interpolation::Linear => {
+                let mut parts = corner.weights.split().into_iter().zip(self.vertex_w);
+                core::array::from_fn(|_| {
+                    let share = parts.next().and_then(|(weight, vertex_w)| weight.times(vertex_w).over(w));
+                    share.map_or(0, |s| s.to_fixed(30) as i32)
+                })
+            }
+            Interpolation::Perspective => {
+                let over_w = corner.weights.over(w).unwrap_or(Block::ZERO);
+                over_w.scaled(self.magnitude.saturating_neg()).split().map(|s| s.to_fixed(30) as i32)
+            }
+        };
+        Weights { shares, vertex, linear: self.interpolation == Interpolation::Linear }
+    }
+}
+
+fn w_of<T: Word>(position: Block<T, 4>) -> Scaled<T> {
+    let [.., w] = position.split();
+    w
+}
