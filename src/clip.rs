@@ -58,7 +58,10 @@ pub struct Polygon<C, const N: usize> {
 
 impl<C: Copy, const N: usize> Default for Polygon<C, N> {
     fn default() -> Self {
-        Polygon { built_in: Vec::new(), user: Vec::new() }
+        Polygon {
+            built_in: Vec::new(),
+            user: Vec::new(),
+        }
     }
 }
 
@@ -78,7 +81,9 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
     /// Corner `index`.
     #[inline]
     pub fn get(&self, index: usize) -> Option<&C> {
-        self.built_in.get(index).or_else(|| self.user.get(index.wrapping_sub(BUILT_IN)))
+        self.built_in
+            .get(index)
+            .or_else(|| self.user.get(index.wrapping_sub(BUILT_IN)))
     }
 
     /// All corners in order.
@@ -126,14 +131,23 @@ impl<T: Word, const N: usize> Planes<T, N> {
     /// What of the triangle is left; `None` for nothing.
     pub fn clip(&self, vertices: [Block<T, 4>; 3]) -> Option<Polygon<ClipCorner<T>, N>> {
         let one = T::ONE << (T::BITS - 1);
-        let unit = [[one, T::ZERO, T::ZERO], [T::ZERO, one, T::ZERO], [T::ZERO, T::ZERO, one]];
+        let unit = [
+            [one, T::ZERO, T::ZERO],
+            [T::ZERO, one, T::ZERO],
+            [T::ZERO, T::ZERO, one],
+        ];
         let mut polygon = Polygon::default();
         for (position, weights) in vertices.into_iter().zip(unit) {
-            polygon.push(ClipCorner { position, weights: Block::new(weights, 1 - T::BITS as i32) });
+            polygon.push(ClipCorner {
+                position,
+                weights: Block::new(weights, 1 - T::BITS as i32),
+            });
         }
         for plane in &self.0 {
             let [a, b, c, d] = plane.mantissas();
-            cut(&mut polygon, |[x, y, z, w]| a.times(x) + b.times(y) + c.times(z) + d.times(w));
+            cut(&mut polygon, |[x, y, z, w]| {
+                a.times(x) + b.times(y) + c.times(z) + d.times(w)
+            });
         }
         (!polygon.is_empty()).then_some(polygon)
     }
@@ -155,7 +169,10 @@ pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
             }
             if w < T::ZERO {
                 // The same point on the screen; the weights keep the sign for what is divided by w.
-                *corner = ClipCorner { position: corner.position.negated(), weights: corner.weights.negated() };
+                *corner = ClipCorner {
+                    position: corner.position.negated(),
+                    weights: corner.weights.negated(),
+                };
             }
         }
     }
@@ -184,17 +201,29 @@ pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
 fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, distance: impl Fn([T; 4]) -> T::Wide) {
     let of = |corner: &ClipCorner<T>| distance(corner.position.mantissas());
     // Mantissas are normalised per corner, so that distances compare as angles do.
-    let Some((outermost, least)) = polygon.iter().map(of).enumerate().min_by_key(|&(_, d)| d) else { return };
+    let Some((outermost, least)) = polygon.iter().map(of).enumerate().min_by_key(|&(_, d)| d) else {
+        return;
+    };
     if least >= T::Wide::ZERO {
         return;
     }
     // Corners counted from the outermost on: 0 and `count` are the outermost itself.
     let count = polygon.len();
-    let corner = |i: usize| polygon.get(if outermost + i < count { outermost + i } else { outermost + i - count });
+    let corner = |i: usize| {
+        polygon.get(if outermost + i < count {
+            outermost + i
+        } else {
+            outermost + i - count
+        })
+    };
     let is_inside = |&i: &usize| corner(i).is_some_and(|c| of(c) >= T::Wide::ZERO);
     let mut kept = Polygon::default();
     if let (Some(first), Some(last)) = ((1..count).find(is_inside), (1..count).rev().find(is_inside)) {
-        let crossing = |inner, outer| corner(inner).zip(corner(outer)).map(|(a, b)| crossing(a, of(a), b, of(b)));
+        let crossing = |inner, outer| {
+            corner(inner)
+                .zip(corner(outer))
+                .map(|(a, b)| crossing(a, of(a), b, of(b)))
+        };
         let entry = crossing(first, first - 1);
         let exit = crossing(last, last + 1);
         let between = (first..=last).filter_map(|i| corner(i).copied());
@@ -219,7 +248,10 @@ fn crossing<T: Word>(
     let [ax, ay, az, aw] = inner.position.mantissas();
     let [bx, by, bz, bw] = outer.position.mantissas();
     let (a_scale, b_scale) = (inner.position.exponent(), outer.position.exponent());
-    let position = Block::from_wide([mix(ax, bx), mix(ay, by), mix(az, bz), mix(aw, bw)], a_scale.saturating_add(b_scale));
+    let position = Block::from_wide(
+        [mix(ax, bx), mix(ay, by), mix(az, bz), mix(aw, bw)],
+        a_scale.saturating_add(b_scale),
+    );
 
     // Distances in true scale are d_in·2^a_scale and d_out·2^b_scale: weights want those, positions cancelled them.
     let a_weights = inner.weights.times(Block::new([d_out], b_scale));
@@ -227,5 +259,8 @@ fn crossing<T: Word>(
     let weights = a_weights.plus(b_weights);
     // Only their ratio counts: back to weights of size 1.
     let excess = weights.exponent().saturating_add(T::BITS as i32);
-    ClipCorner { position: position.scaled(excess.saturating_neg()), weights: weights.scaled(excess.saturating_neg()) }
+    ClipCorner {
+        position: position.scaled(excess.saturating_neg()),
+        weights: weights.scaled(excess.saturating_neg()),
+    }
 }

@@ -3,6 +3,7 @@
 use crate::depth::Depth;
 use crate::fragment::Fragment;
 use crate::gradient::{Basis, Plane, Ramp};
+use crate::line::Line;
 use crate::num::Word;
 use crate::screen::{Corner, Shape};
 use crate::span::{doubled_area, scan};
@@ -52,6 +53,31 @@ pub fn primitive<T, W, C, D, F, const N: usize>(
 {
     if let Some(shape) = view.project::<F::Varying>(vertices) {
         polygon::<W, _, _, _, _>(color, depth, &shape, doubled_area(&shape), fragment);
+    }
+}
+
+/// Draws the line from one pixel to another, the last left out; see [`line`](mod@crate::line).
+///
+/// ```
+/// use fixel::{draw, fragment::Flat, target::Buffer};
+/// let mut picture = [b'.'; 6 * 3];
+/// draw::line(&mut Buffer::new(&mut picture, 6, 3)?, (0, 2), (6, 0), &Flat(b'#'));
+/// let rows: Vec<_> = picture.chunks(6).map(|row| str::from_utf8(row).unwrap()).collect();
+/// assert_eq!(rows, [".....#", "..###.", "##...."]);
+/// # Ok::<(), fixel::error::Error>(())
+/// ```
+pub fn line<C, F>(color: &mut C, from: (i16, i16), to: (i16, i16), fragment: &F)
+where
+    C: Target,
+    F: Fragment<Pixel = C::Pixel, Varying = ()>,
+{
+    let window = color.window();
+    for (x, y) in Line::new(from, to, window) {
+        if let Some(pixel) = color.row(y).get_mut((x - window.left) as usize)
+            && let Some(new) = fragment.shade((), *pixel)
+        {
+            *pixel = new;
+        }
     }
 }
 

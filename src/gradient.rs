@@ -5,8 +5,8 @@
 //! pixel and two steps, in units of 2^-14 of that. Evaluating it is exact integer arithmetic on absolute positions.
 //!
 //! **Error.** Each step is the exact one cut towards zero, by 2^-14 unit and by 2^-28 of itself (normalised numerator,
-//! reciprocal, product). At n_x columns and n_y rows from the anchor that is (n_x + n_y)·2^-14 unit + 2^-28·(|step_x|·n_x
-//! + |step_y|·n_y). Along a span the cut steps add up to no more than (n − 1)·2^-14 unit, or with 32-bit stepping
+//! reciprocal, product). At n_x columns and n_y rows from the anchor that is (n_x + n_y)·2^-14 unit and, in addition,
+//! 2^-28·(|step_x|·n_x + |step_y|·n_y). Along a span the cut steps add up to no more than (n − 1)·2^-14 unit, or with 32-bit stepping
 //! (n − 1) units.
 //!
 //! **Range.** The first value of a span is clamped so that it *and* the last lie between the least and the largest corner
@@ -187,7 +187,7 @@ impl Plane {
     /// At the first column of `span`, in units of the corners' values: 32-bit stepping.
     #[inline(always)]
     pub fn ramp(&self, span: &Span) -> Ramp<i32> {
-        let start = (self.at(span) >> EXTRA_BITS) as i64;
+        let start = self.at(span) >> EXTRA_BITS;
         // Cut towards zero once more: a span of n pixels is off by less than n − 1 units at its end.
         let step = self.step_x / (1 << EXTRA_BITS);
         let (value, step) = self.within(start, step, span, 0);

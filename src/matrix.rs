@@ -92,8 +92,10 @@ impl<T: Word> Matrix<T> {
     /// # Errors
     /// [`Error::ZeroVector`] for an axis of length 0.
     pub fn rotation<S: Trigonometry>(angle: Angle, axis: Block<T, 3>) -> Result<Self, Error> {
-        let (a, b, c) = rotation_rows::<T, S>(angle, axis)?;
-        Ok(Self::from_linear([a, b, c], -(T::BITS as i32)))
+        Ok(Self::from_linear(
+            rotation_rows::<T, S>(angle, axis)?,
+            -(T::BITS as i32),
+        ))
     }
 
     /// The view from `eye` towards `center`, with `up` upwards on the screen: rows (s, u, −f) · translation(−eye).
@@ -213,8 +215,8 @@ impl<T: Word> Directions<T> {
     /// # Errors
     /// [`Error::ZeroVector`] for an axis of length 0.
     pub fn rotate<S: Trigonometry>(&mut self, angle: Angle, axis: Block<T, 3>) -> Result<(), Error> {
-        let (a, b, c) = rotation_rows::<T, S>(angle, axis)?;
-        self.multiply([a, b, c].map(|row| Block::new(row, -(T::BITS as i32))));
+        let rows = rotation_rows::<T, S>(angle, axis)?;
+        self.multiply(rows.map(|row| Block::new(row, -(T::BITS as i32))));
         Ok(())
     }
 
@@ -257,7 +259,7 @@ impl<T: Word> Directions<T> {
 }
 
 /// The rows of a rotation in units of 2^-BITS: x² + c(1−x²), xy − c·xy − z·s and so on, with unit axis (x, y, z).
-fn rotation_rows<T: Word, S: Trigonometry>(angle: Angle, axis: Block<T, 3>) -> Result<([T; 3], [T; 3], [T; 3]), Error> {
+fn rotation_rows<T: Word, S: Trigonometry>(angle: Angle, axis: Block<T, 3>) -> Result<[[T; 3]; 3], Error> {
     let [x, y, z] = axis.unit().ok_or(Error::ZeroVector)?;
     let (sin, cos) = S::sin_cos::<T>(angle);
     let one = T::ONE << T::BITS;
@@ -268,11 +270,11 @@ fn rotation_rows<T: Word, S: Trigonometry>(angle: Angle, axis: Block<T, 3>) -> R
     let other = |p: T, s: T| round((p.widen() << T::BITS) - cos.times(p) + s.times(sin));
     let (xx, yy, zz) = (product(x, x), product(y, y), product(z, z));
     let (xy, xz, yz) = (product(x, y), product(x, z), product(y, z));
-    Ok((
+    Ok([
         [diagonal(xx), other(xy, -z), other(xz, y)],
         [other(xy, z), diagonal(yy), other(yz, -x)],
         [other(xz, -y), other(yz, x), diagonal(zz)],
-    ))
+    ])
 }
 
 /// The rows (s, u, −f) of a view, unit vectors in units of 2^-BITS.

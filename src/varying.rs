@@ -243,6 +243,6 @@ fn ranges<const N: usize>(count: usize, corner: impl Fn(usize) -> [i32; N]) -> [
 
 /// `array.each_ref().map(f)` that inlines.
 #[inline(always)]
-fn each<A, B, const N: usize>(array: &[A; N], mut f: impl FnMut(&A) -> B) -> [B; N] {
-    array.each_ref().map(|item| f(item))
+fn each<'a, A, B, const N: usize>(array: &'a [A; N], f: impl FnMut(&'a A) -> B) -> [B; N] {
+    array.each_ref().map(f)
 }

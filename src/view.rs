@@ -120,7 +120,11 @@ impl<const N: usize> Carried for Perspective<N> {
     fn mix(vertices: [[i32; N]; 3], weights: Weights) -> Self {
         let over_w = weights.sum(vertices);
         if weights.linear {
-            return Perspective { over_w, inverse: 1 << 30, values: over_w };
+            return Perspective {
+                over_w,
+                inverse: 1 << 30,
+                values: over_w,
+            };
         }
         let [a, b, c] = weights.shares;
         let inverse = a + b + c;
@@ -131,7 +135,11 @@ impl<const N: usize> Carried for Perspective<N> {
                 quotient.clamp(i32::MIN as i64, i32::MAX as i64) as i32
             }),
         };
-        Perspective { over_w, inverse, values }
+        Perspective {
+            over_w,
+            inverse,
+            values,
+        }
     }
 }
 
@@ -216,10 +224,17 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         let weigh = Weigh::new(&polygon, eye.map(|p| w_of(self.projection.transform(p))), V::KIND);
         let mut corners = polygon.iter().filter_map(|corner| {
             let (x, y, depth) = self.viewport.place(corner.position, self.depth_range)?;
-            Some(ProjectedCorner { position: (x, y), depth, varying: V::mix(carried, weigh.weights(corner)) })
+            Some(ProjectedCorner {
+                position: (x, y),
+                depth,
+                varying: V::mix(carried, weigh.weights(corner)),
+            })
         });
         let first = corners.next()?;
-        let mut projected = Projected { corners: Polygon::default(), first };
+        let mut projected = Projected {
+            corners: Polygon::default(),
+            first,
+        };
         projected.corners.push(first);
         corners.for_each(|corner| projected.corners.push(corner));
 
@@ -258,13 +273,19 @@ impl<T: Word> Weigh<T> {
         if interpolation == Interpolation::Perspective {
             for corner in polygon.iter() {
                 if let Some(over_w) = corner.weights.over(w_of(corner.position)) {
-                    let [x, y, z] = over_w.split().map(|s| if s.mantissas() < [T::ZERO] { s.negated() } else { s });
+                    let [x, y, z] = over_w
+                        .split()
+                        .map(|s| if s.mantissas() < [T::ZERO] { s.negated() } else { s });
                     let sum = x.plus(y).plus(z);
                     magnitude = magnitude.max(sum.exponent().saturating_add(T::BITS as i32));
                 }
             }
         }
-        Weigh { vertex_w, interpolation, magnitude }
+        Weigh {
+            vertex_w,
+            interpolation,
+            magnitude,
+        }
     }
 
     fn weights(&self, corner: &ClipCorner<T>) -> Weights {
@@ -282,16 +303,25 @@ impl<T: Word> Weigh<T> {
             Interpolation::Linear => {
                 let mut parts = corner.weights.split().into_iter().zip(self.vertex_w);
                 core::array::from_fn(|_| {
-                    let share = parts.next().and_then(|(weight, vertex_w)| weight.times(vertex_w).over(w));
+                    let share = parts
+                        .next()
+                        .and_then(|(weight, vertex_w)| weight.times(vertex_w).over(w));
                     share.map_or(0, |s| s.to_fixed(30) as i32)
                 })
             }
             Interpolation::Perspective => {
                 let over_w = corner.weights.over(w).unwrap_or(Block::ZERO);
-                over_w.scaled(self.magnitude.saturating_neg()).split().map(|s| s.to_fixed(30) as i32)
+                over_w
+                    .scaled(self.magnitude.saturating_neg())
+                    .split()
+                    .map(|s| s.to_fixed(30) as i32)
             }
         };
-        Weights { shares, vertex, linear: self.interpolation == Interpolation::Linear }
+        Weights {
+            shares,
+            vertex,
+            linear: self.interpolation == Interpolation::Linear,
+        }
     }
 }
 

@@ -37,27 +37,36 @@ impl<W: Word> Viewport<W> {
     /// # Errors
     /// [`Error::TooLarge`] where it reaches beyond ±[`Word::GUARD`] px.
     pub fn new(left: i32, top: i32, width: u16, height: u16) -> Result<Self, Error> {
-        let reach = |from: i32, size: u16| {
-            from.unsigned_abs() > W::GUARD as u32 || from.saturating_add(size as i32) > W::GUARD
-        };
+        let reach =
+            |from: i32, size: u16| from.unsigned_abs() > W::GUARD as u32 || from.saturating_add(size as i32) > W::GUARD;
         if reach(left, width) || reach(top, height) {
             return Err(Error::TooLarge);
         }
         let half = |size: u16| size as i32 * (SUBPIXELS / 2);
         let scale = (half(width), half(height));
         let center = (left * SUBPIXELS + scale.0, top * SUBPIXELS + scale.1);
-        Ok(Viewport { scale, center, word: PhantomData })
+        Ok(Viewport {
+            scale,
+            center,
+            word: PhantomData,
+        })
     }
 
     /// The same rectangle with y upwards.
     pub fn y_up(self) -> Self {
-        Viewport { scale: (self.scale.0, -self.scale.1), ..self }
+        Viewport {
+            scale: (self.scale.0, -self.scale.1),
+            ..self
+        }
     }
 
     /// Samples in the middle of the pixels (`.iv`, OpenGL) instead of at their upper left corners.
     pub fn samples_at_centers(self) -> Self {
         let half = SUBPIXELS / 2;
-        Viewport { center: (self.center.0 - half, self.center.1 - half), ..self }
+        Viewport {
+            center: (self.center.0 - half, self.center.1 - half),
+            ..self
+        }
     }
 
     /// The distances of a point with w > 0 to the four sides of the guard band, up to a common factor: all at least 0
@@ -65,8 +74,11 @@ impl<W: Word> Viewport<W> {
     #[inline]
     pub(crate) fn guard_distance<T: Word>(&self, position: [T; 4], side: usize) -> T::Wide {
         let [x, y, _, w] = position.map(T::widen);
-        let (coordinate, scale, center) =
-            if side & 1 == 0 { (x, self.scale.0, self.center.0) } else { (y, self.scale.1, self.center.1) };
+        let (coordinate, scale, center) = if side & 1 == 0 {
+            (x, self.scale.0, self.center.0)
+        } else {
+            (y, self.scale.1, self.center.1)
+        };
         if side & 2 == 0 {
             w.times_small(Self::LIMIT - center) - coordinate.times_small(scale)
         } else {
@@ -97,8 +109,15 @@ impl<W: Word> Viewport<W> {
             DepthRange::MinusOneToOne => (z + w).times_small(FULL).div_floor(twice),
             DepthRange::Unlimited => T::Wide::ZERO,
         };
-        let depth = depth.max(T::Wide::ZERO).min(T::from_i32(FULL).widen()).narrow().low_i32();
-        let (x, y) = (coordinate(x, self.scale.0, self.center.0), coordinate(y, self.scale.1, self.center.1));
+        let depth = depth
+            .max(T::Wide::ZERO)
+            .min(T::from_i32(FULL).widen())
+            .narrow()
+            .low_i32();
+        let (x, y) = (
+            coordinate(x, self.scale.0, self.center.0),
+            coordinate(y, self.scale.1, self.center.1),
+        );
         Some((x, y, depth))
     }
 }

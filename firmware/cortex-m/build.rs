@@ -9,6 +9,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     fs::copy("mps2.x", out.join("memory.x"))?;
     println!("cargo:rerun-if-changed=mps2.x");
     println!("cargo:rustc-link-search={}", out.display());
+    // Here and not in a cargo configuration, which RUSTFLAGS and another working directory would do away with.
+    println!("cargo:rustc-link-arg-bins=-Tlink.x");
 
     // Written by `cargo xtask`; without it the images know no workloads but the built-in shapes.
     println!("cargo:rerun-if-env-changed=FIXEL_WORKLOADS");

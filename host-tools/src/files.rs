@@ -201,3 +201,51 @@ impl Staged {
         done.map_err(|error| trouble(&self.name, "write", error))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_changes_before_the_commit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("a.png");
+        fs::write(&file, "old").expect("written");
+        drop(stage(&file, b"new".to_vec()).expect("staged"));
+        assert_eq!(fs::read(&file).expect("read"), b"old");
+        let staged = stage(&file, b"new".to_vec()).expect("staged");
+        assert_eq!(fs::read(&file).expect("read"), b"old");
+        staged.commit().expect("in its place");
+        assert_eq!(fs::read(&file).expect("read"), b"new");
+        let left = fs::read_dir(folder.path()).expect("read").count();
+        assert_eq!(left, 1, "a temporary file was left behind");
+    }
+
+    #[test]
+    fn identity_sees_through_spelling() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| identity(&folder.path().join(name));
+        fs::create_dir(folder.path().join("sub")).expect("a folder");
+        assert_eq!(at("new.png"), at("sub/../new.png"));
+        assert_eq!(at("new.png"), at("./new.png"));
+        assert_ne!(at("new.png"), at("sub/new.png"));
+        let before = at("new.png");
+        fs::write(folder.path().join("new.png"), "").expect("written");
+        assert_eq!(at("new.png"), at("sub/../new.png"));
+        assert_ne!(at("new.png"), before, "an existing file is known by its number");
+    }
+
+    #[test]
+    fn textures_are_files_of_their_kind() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("text.png"), "png 8 8 out.png").expect("written");
+        let picture = Picture::new(1, 1, vec![[1; 4]]);
+        fs::write(at("good.png"), png::encode(&picture).expect("encoded")).expect("written");
+        assert_eq!(check_texture(&at("good.png")), Ok(()));
+        for name in ["nosuch.png", "text.png", ".", "good.png/x"] {
+            assert!(check_texture(&at(name)).is_err(), "{name}");
+        }
+        assert_eq!(read_picture(&at("good.png")), Ok(picture));
+    }
+}

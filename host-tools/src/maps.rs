@@ -1,4 +1,7 @@
 //! Pictures about pictures: where the two differ and why, and how deep the pixels lie.
+//!
+//! The legend of the classified difference picture, from harmless to a bug: black *equal*, blue *colour*, yellow
+//! *edge*, green *depth*, cyan *texel*, magenta *pole*, orange *steep*, red **unexplained**.
 
 use crate::compare::Class;
 use crate::picture::Picture;

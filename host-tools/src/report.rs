@@ -159,3 +159,106 @@ fn push(line: &mut String, text: std::fmt::Arguments<'_>) {
     // Writing into a string cannot fail.
     let _ = line.write_fmt(text);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Fault, Place};
+
+    fn report(unexplained: u64, psnr: Option<f64>) -> Report {
+        let explained = Explained {
+            colour: 2,
+            edge: 3,
+            depth: 0,
+            texel: 0,
+            pole: 0,
+            steep: 0,
+        };
+        Report {
+            scene: "a.txt".to_owned(),
+            format: Format::Hw2,
+            width: 20,
+            height: 10,
+            comparison: Comparison {
+                pixels_drawn: 100,
+                coverage_differs: 1,
+                unexplained,
+                max_channel_error: 7,
+                rmse: 0.5,
+                psnr,
+                explained,
+                classes: Vec::new(),
+            },
+            seconds_fixed: 0.0015,
+            seconds_reference: 0.25,
+            against: None,
+        }
+    }
+
+    #[test]
+    fn the_line() {
+        let mut report = report(0, Some(54.25));
+        assert_eq!(
+            report.line(),
+            "a.txt: 20x10, 100 pixels drawn, 0 unexplained, 5 explained (colour 2 = 2.00 %, edge 3 = 3.00 %), \
+             largest error 7, PSNR 54.2 dB, 1.5 ms fixed, 250.0 ms reference"
+        );
+        report.against = Some([Agreement::default(); 2]);
+        assert!(
+            report
+                .line()
+                .contains("0 over 2 % outside ties, 0 in all, reference NOT identical")
+        );
+    }
+
+    #[test]
+    fn equal_pictures_have_no_psnr() {
+        assert!(report(0, None).json()["psnr"].is_null());
+        assert_eq!(report(0, Some(54.25)).json()["psnr"], 54.25);
+        assert!(report(0, None).line().contains("pictures equal"));
+    }
+
+    #[test]
+    fn what_makes_a_scene_differ() {
+        let exact = Agreement {
+            identical: true,
+            ..Agreement::default()
+        };
+        let excused = Agreement {
+            over_2_percent: 9,
+            ..Agreement::default()
+        };
+        let stray = Agreement {
+            over_2_percent: 9,
+            over_2_percent_outside_ties: 1,
+            ..Agreement::default()
+        };
+        for (unexplained, against, exit) in [
+            (0, None, Exit::Within),
+            (1, None, Exit::Differs),
+            (0, Some([excused, exact]), Exit::Within),
+            (0, Some([stray, exact]), Exit::Differs),
+            (0, Some([exact, excused]), Exit::Differs),
+            (1, Some([exact, exact]), Exit::Differs),
+        ] {
+            let report = Report {
+                against,
+                ..report(unexplained, None)
+            };
+            assert_eq!(report.exit(), exit, "{unexplained} unexplained, {against:?}");
+        }
+    }
+
+    #[test]
+    fn a_failed_scene_has_an_object_too() {
+        let fault = Fault::new(Place { line: 3, column: 4 }, "no");
+        let file = Path::new("a.txt");
+        let object = failure(file, &Failure::scene(file, &fault));
+        assert_eq!(object["error"], "a.txt: line 3, column 4: no");
+        assert_eq!(
+            (&object["line"], &object["column"], &object["exit"]),
+            (&3.into(), &4.into(), &2.into())
+        );
+        assert!(failure(file, &Failure::bad("no"))["line"].is_null());
+    }
+}

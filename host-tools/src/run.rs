@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -134,7 +134,7 @@ fn write(outputs: &Outputs, rendered: &Rendered) -> Result<(), Failure> {
     Ok(())
 }
 
-fn stage(file: &PathBuf, picture: &Picture) -> Result<Staged, Failure> {
+fn stage(file: &Path, picture: &Picture) -> Result<Staged, Failure> {
     let bytes = png::encode(picture).map_err(|error| Failure {
         exit: Exit::Internal,
         message: format!("{}: cannot be made into a PNG: {error}", file.display()),
@@ -163,4 +163,24 @@ fn print(args: &Args, outcomes: &[Outcome]) -> io::Result<()> {
 fn complain(message: std::fmt::Arguments<'_>) {
     // If standard error is gone, there is nobody to tell; the exit code still does.
     let _ = writeln!(io::stderr(), "{message}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_one_scenes_failure() {
+        let outcome: Result<(), _> = guarded(Path::new("a.txt"), || panic!("as this {} asks for", "test"));
+        let failure = outcome.expect_err("it panicked");
+        assert_eq!(failure.exit, Exit::Internal);
+        assert_eq!(failure.message, "a.txt: internal error: as this test asks for");
+    }
+
+    #[test]
+    fn the_worst_exit_is_the_largest() {
+        let order = [Exit::Within, Exit::Differs, Exit::Bad, Exit::Files, Exit::Internal];
+        assert!(order.is_sorted());
+        assert_eq!(order.map(|exit| exit as u8), [0, 1, 2, 3, 4]);
+    }
 }

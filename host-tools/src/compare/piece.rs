@@ -4,10 +4,14 @@
 //! p inside the moved triangle is Σ b (P + d) with weights b ≥ 0 that sum to 1, so every value linear on the screen is there
 //! what it is at p - Σ b d in the unmoved one: the value at a point at most δ away, and between the corners' values.
 //! Perspective-correct values N/Q are too, since N and Q are linear and go along together.
+//!
+//! A clipped polygon of n corners has its values from the largest triangle of its fan alone, and a sample outside that one
+//! has weights of both signs: at most one is negative, and at least -(n - 3), since no triangle of the fan is larger.
+//! So Σ|b| ≤ 2n - 5 =: spread, and the displacement is at most spread · δ. The corners' range still holds: the core clamps to it.
 
 use super::interval::Interval;
-use super::stated::{COLOR_LEVELS, GUARD, PERSPECTIVE, WIDE_GUARD};
-use crate::reference::log::Corner;
+use super::stated::{COLOR_LEVELS, DEPTH_PER_COLUMN, GRADIENT, GUARD, PERSPECTIVE, WIDE_GUARD};
+use crate::reference::log::{Corner, Polygon};
 
 /// A function linear on the screen.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +26,11 @@ impl Linear {
         self.value
             + self.gradient[0] * (p[0] - self.origin[0])
             + self.gradient[1] * (p[1] - self.origin[1])
+    }
+
+    /// What the core's relative error of gradients adds up to over the extents of a polygon.
+    fn swing(&self, extents: [f64; 2]) -> f64 {
+        GRADIENT * (self.gradient[0].abs() * extents[0] + self.gradient[1].abs() * extents[1])
     }
 
     fn slope(&self) -> f64 {
@@ -52,27 +61,45 @@ pub struct Piece {
     fit: Option<Fit>,
     /// The largest |1/w| of the triangle inside the guard band.
     greatest_q: f64,
+    /// Width and height of the polygon, as far as it lies in the guard band.
+    extents: [f64; 2],
+    /// See the module.
+    spread: f64,
     /// Rounding of the reference, which adds steps along rows and columns, relative to the largest value.
     walk: f64,
+    /// Stepping of the core's depth along a row, in z/w.
+    depth_steps: f64,
+}
+
+/// Half the side of the guard band of a picture of `size` px.
+pub fn guard(size: [f64; 2]) -> f64 {
+    if size[0].max(size[1]) <= GUARD { GUARD } else { WIDE_GUARD }
 }
 
 impl Piece {
-    /// The triangle of a picture of `size` px; `mixed` and `gouraud` are its polygon's.
-    pub fn new(corners: [Corner; 3], mixed: bool, gouraud: bool, size: [f64; 2]) -> Self {
+    /// A triangle of a polygon's fan in a picture of `size` px; `count` is the most corners that clipping leaves the polygon.
+    pub fn new(corners: [Corner; 3], polygon: &Polygon, count: usize, size: [f64; 2]) -> Self {
         let fit = Fit::through(&corners, size);
+        let guard = guard(size);
         let mut greatest_q = Interval::of(corners.map(|c| c.w.recip().abs())).high;
         if let Some(fit) = fit {
-            let guard = if size[0].max(size[1]) <= GUARD { GUARD } else { WIDE_GUARD };
             let band = [[-guard, -guard], [guard, -guard], [-guard, guard], [guard, guard]];
             greatest_q = greatest_q.min(Interval::of(band.map(|p| fit.q.at(p).abs())).high);
         }
+        let extents = [0, 1].map(|i| {
+            let range = Interval::of(polygon.outer.iter().map(|c| c.position[i].clamp(-guard, guard)));
+            range.high - range.low + 1.0
+        });
         Self {
             corners,
-            mixed,
-            gouraud,
+            mixed: polygon.mixed,
+            gouraud: polygon.gouraud,
             fit,
             greatest_q,
+            extents,
+            spread: (2 * count - 5) as f64,
             walk: (size[0] + size[1] + 8.0) * f64::EPSILON,
+            depth_steps: DEPTH_PER_COLUMN * (size[0] + 8.0) / 65535.0,
         }
     }
 
@@ -88,8 +115,18 @@ impl Piece {
         (here / (1.0 - slope)).min(all.high)
     }
 
-    /// z/w as the core may have it at a sample, before it is rounded to 16 bits.
+    /// z/w of the unmoved points that may lie on a sample: what decides about the border of the depth range.
     pub fn depth(&self, p: [f64; 2]) -> Interval {
+        self.moved_depth(p, self.reach(p))
+    }
+
+    /// z/w as the core interpolates it, before it is rounded to 16 bits.
+    pub fn interpolated_depth(&self, p: [f64; 2]) -> Interval {
+        let swing = self.fit.map_or(0.0, |fit| fit.depth.swing(self.extents));
+        self.moved_depth(p, self.spread * self.reach(p)).widened(self.depth_steps + swing)
+    }
+
+    fn moved_depth(&self, p: [f64; 2], by: f64) -> Interval {
         let range = Interval::of(self.corners.map(|c| c.z));
         let errors = Interval::of(self.corners.map(|c| c.depth_error));
         let largest = range.low.abs().max(range.high.abs());
@@ -97,7 +134,7 @@ impl Piece {
             return range.widened(errors.high + self.walk * largest);
         };
         let error = fit.depth_error.at(p).clamp(errors.low, errors.high) + fit.noise * errors.high;
-        Interval::around(fit.depth.at(p), fit.depth.slope() * self.reach(p))
+        Interval::around(fit.depth.at(p), fit.depth.slope() * by)
             .clamped(range)
             .widened(error + (fit.noise + self.walk) * largest)
     }
@@ -117,9 +154,9 @@ impl Piece {
         let weights = Interval::of(self.corners.map(|c| c.weight_error)).high;
         let noise = fit.map_or(0.0, |fit| fit.noise);
         let relative = PERSPECTIVE + 2.0 * weights + self.walk + noise;
-        // Of positive weights the mean is never off by more than the range itself.
         let ratio = self.greatest_q / least;
-        let bound = arithmetic + relative * ratio * greatest;
+        let swing = fit.map_or(0.0, |fit| fit.color_swing(self.extents, greatest)) / least;
+        let bound = arithmetic + relative * ratio * greatest + swing;
         Some([0, 1, 2].map(|channel| {
             let range = Interval::of(self.corners.map(|c| c.color[channel]));
             let value = self.value(p, channel, known.map(|k| k[channel]), least);
@@ -132,23 +169,30 @@ impl Piece {
     fn value(&self, p: [f64; 2], channel: usize, known: Option<f64>, least: f64) -> Interval {
         let Some(fit) = self.fit else { return Interval::ALL };
         let (n, q) = (fit.colors[channel], fit.q);
-        if q.at(p).abs() <= q.slope() * self.reach(p) {
+        let moved = self.spread * self.reach(p);
+        if q.at(p).abs() <= q.slope() * moved {
             return Interval::ALL;
         }
         let value = known.unwrap_or_else(|| n.at(p) / q.at(p));
         let along = [0, 1].map(|i| n.gradient[i] - value * q.gradient[i]);
-        Interval::around(value, along[0].hypot(along[1]) * self.reach(p) / least)
+        Interval::around(value, along[0].hypot(along[1]) * moved / least)
     }
 
     /// The least |1/w| within δ of a sample; with one sign it is never below the corners' least.
     fn least_q(&self, p: [f64; 2]) -> f64 {
         let corners = Interval::of(self.corners.map(|c| c.w.recip().abs())).low;
-        let here = self.fit.map_or(0.0, |fit| fit.q.at(p).abs() - fit.q.slope() * self.reach(p));
+        let here = self.fit.map_or(0.0, |fit| fit.q.at(p).abs() - fit.q.slope() * self.spread * self.reach(p));
         if self.mixed { here } else { here.max(corners) }
     }
 }
 
 impl Fit {
+    /// |ΔN| + |c| |ΔQ| of the worst channel.
+    fn color_swing(&self, extents: [f64; 2], greatest: f64) -> f64 {
+        let numerators = self.colors.map(|n| n.swing(extents));
+        Interval::of(numerators).high + greatest * self.q.swing(extents)
+    }
+
     fn through(corners: &[Corner; 3], size: [f64; 2]) -> Option<Self> {
         let distance = |c: &Corner| {
             (c.position[0] - size[0] / 2.0).hypot(c.position[1] - size[1] / 2.0)

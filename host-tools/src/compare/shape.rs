@@ -1,8 +1,8 @@
 //! A polygon of the log, ready to be asked about samples: does the core cover it, and at what depth?
 
 use super::interval::Interval;
-use super::piece::Piece;
-use super::stated::DEPTH_STEPS;
+use super::piece::{Piece, guard};
+use super::stated::DEPTH_ROUNDING;
 use crate::reference::log::{Corner, Polygon, doubled_area};
 
 /// Whether the core covers a sample with a polygon.
@@ -36,9 +36,10 @@ impl<'a> Shape<'a> {
     /// The polygon in a picture of `size` px.
     pub fn new(polygon: &'a Polygon, size: [f64; 2]) -> Self {
         let corners = &polygon.outer;
+        let count = corners.len() + clipping_sides(corners, guard(size));
         let piece = |i: usize| {
             let fan = [corners[0], corners[i - 1], corners[i]];
-            Piece::new(fan, polygon.mixed, polygon.gouraud, size)
+            Piece::new(fan, polygon, count, size)
         };
         Self {
             polygon,
@@ -80,7 +81,8 @@ impl<'a> Shape<'a> {
         }
         // The range is decided on the unrounded depth.
         let coverage = if range.holds(depth) { on_edges } else { Coverage::Perhaps };
-        let depth = depth.widened(DEPTH_STEPS / 65535.0);
+        let depth = (self.near(p).map(|piece| piece.interpolated_depth(p))).reduce(Interval::join)?;
+        let depth = depth.widened(DEPTH_ROUNDING / 65535.0);
         Some(Claim { coverage, depth })
     }
 
@@ -186,6 +188,18 @@ impl Edge {
         }
         Self { side, clearance }
     }
+}
+
+/// How many of the depth range's borders and the guard band's sides cut the polygon: each can add a corner. A corner that
+/// the core sees beyond a border by its error only adds one right beside it, which moves nothing.
+fn clipping_sides(corners: &[Corner], guard: f64) -> usize {
+    let beyond = |outside: &dyn Fn(&Corner) -> bool| usize::from(corners.iter().any(outside));
+    beyond(&|c| c.z < 0.0)
+        + beyond(&|c| c.z > 1.0)
+        + beyond(&|c| c.position[0] < -guard)
+        + beyond(&|c| c.position[0] > guard)
+        + beyond(&|c| c.position[1] < -guard)
+        + beyond(&|c| c.position[1] > guard)
 }
 
 /// How much the doubled area may change when the corners move by their reaches, to first order and a margin for the second.

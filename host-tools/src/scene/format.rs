@@ -142,4 +142,15 @@ mod tests {
         assert_eq!(told("a.txt", "what is this\nxyz"), Format::Hw2);
         assert_eq!(told("cube.OBJ", "v 1 2 3"), Format::Obj);
     }
+
+    #[test]
+    fn the_lists_are_the_grammars() {
+        let known = |keyword: &str| {
+            let text = format!("png 1 1 a.png\n{keyword} x x x x x x x");
+            let fault = crate::scene::hw2::parse_with(text.as_bytes(), &mut |_| Ok(()));
+            !fault.is_err_and(|fault| fault.message.contains("not an HW2 keyword"))
+        };
+        assert!(ONLY_HW2.into_iter().chain(SHARED).all(known));
+        assert!(!ONLY_MP1.into_iter().any(known));
+    }
 }
