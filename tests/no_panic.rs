@@ -187,7 +187,7 @@ fn draw_kind<T: Word, W: Word, V: Carried<Vertex = [i32; 2]>>(view: &View<T, W, 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(4000))]
 
     #[test]
     fn any_corners_in_any_window(

@@ -40,7 +40,7 @@ fn a_colour_never_leaves_the_range_of_the_corners() {
     let top = |x: f64| {
         let low = 100.3 - 200.0 * 50.0;
         let corners = [(x, -40.0, 100.3), (x - 50.0, 16.0, low), (x, 72.0, 100.3)];
-        let corners = corners.map(|(x, y, level)| colored(at(x, y, 0.5), level.max(0.0)));
+        let corners = corners.map(|(x, y, level)| colored(at(x, y, 0.5), level));
         rendered(&[(corners, Surface::Gouraud)])
     };
     let near = top(10.0 + 0.1 * SNAP);
