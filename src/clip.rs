@@ -107,6 +107,15 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
     }
 }
 
+impl<C: Copy, const N: usize> FromIterator<C> for Polygon<C, N> {
+    /// The first 9 + N corners.
+    fn from_iter<I: IntoIterator<Item = C>>(corners: I) -> Self {
+        let mut polygon = Polygon::default();
+        corners.into_iter().for_each(|corner| polygon.push(corner));
+        polygon
+    }
+}
+
 /// The user's clip planes, at most N.
 ///
 /// ```
@@ -207,27 +216,28 @@ fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, distanc
     if least >= T::Wide::ZERO {
         return;
     }
-    // Corners counted from the outermost on: 0 and `count` are the outermost itself.
+    // Counted from the outermost on, the corners that stay are those from the first to the last inside.
     let count = polygon.len();
-    let corner = |i: usize| {
-        polygon.get(if outermost + i < count {
-            outermost + i
-        } else {
-            outermost + i - count
-        })
-    };
-    let is_inside = |&i: &usize| corner(i).is_some_and(|c| of(c) >= T::Wide::ZERO);
+    let after = |i: usize| if i < count { i } else { i - count };
+    let is_inside = |i: usize| polygon.get(i).is_some_and(|c| of(c) >= T::Wide::ZERO);
+    let first = (1..count).find(|&i| is_inside(after(outermost + i))).unwrap_or(count);
+    let last = (1..count).rev().find(|&i| is_inside(after(outermost + i))).unwrap_or(0);
+    let stays = |i: usize| (first..=last).contains(&after(i + count - outermost));
+
     let mut kept = Polygon::default();
-    if let (Some(first), Some(last)) = ((1..count).find(is_inside), (1..count).rev().find(is_inside)) {
-        let crossing = |inner, outer| {
-            corner(inner)
-                .zip(corner(outer))
-                .map(|(a, b)| crossing(a, of(a), b, of(b)))
+    for i in 0..count {
+        let (Some(corner), Some(next)) = (polygon.get(i), polygon.get(after(i + 1))) else {
+            continue;
         };
-        let entry = crossing(first, first - 1);
-        let exit = crossing(last, last + 1);
-        let between = (first..=last).filter_map(|i| corner(i).copied());
-        entry.into_iter().chain(between).chain(exit).for_each(|c| kept.push(c));
+        let (stays, next_stays) = (stays(i), stays(after(i + 1)));
+        if stays {
+            kept.push(*corner);
+        }
+        if stays && !next_stays {
+            kept.push(crossing(corner, of(corner), next, of(next)));
+        } else if next_stays && !stays {
+            kept.push(crossing(next, of(next), corner, of(corner)));
+        }
     }
     *polygon = kept;
 }

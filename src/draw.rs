@@ -51,9 +51,9 @@ pub fn primitive<T, W, C, D, F, const N: usize>(
     D: Depth,
     F: Fragment<Pixel = C::Pixel, Varying: Carried>,
 {
-    if let Some(shape) = view.project::<F::Varying>(vertices) {
-        polygon::<W, _, _, _, _>(color, depth, &shape, doubled_area(&shape), fragment);
-    }
+    view.project::<F::Varying>(vertices, |shape| {
+        polygon::<W, _, _, _, _>(color, depth, shape, doubled_area(shape), fragment);
+    });
 }
 
 /// Draws the line from one pixel to another, the last left out; see [`line`](mod@crate::line).

@@ -12,10 +12,16 @@ pub enum Error {
     FlatView,
     /// One clip plane more than there is room for.
     TooManyPlanes,
+    /// One light more than there is room for.
+    TooManyLights,
     /// A buffer is too short for its picture, or its stride shorter than its width.
     BufferTooSmall,
     /// A picture or viewport reaches beyond the guard band of its word size.
     TooLarge,
+    /// A texture without width or height.
+    EmptyTexture,
+    /// A patch's subdivision level outside 1…8.
+    SubdivisionLevel,
 }
 
 impl fmt::Display for Error {
@@ -24,8 +30,11 @@ impl fmt::Display for Error {
             Error::ZeroVector => "a direction of length 0",
             Error::FlatView => "a projection whose opposite sides coincide",
             Error::TooManyPlanes => "more clip planes than there is room for",
+            Error::TooManyLights => "more lights than there is room for",
             Error::BufferTooSmall => "the buffer is too short for the picture",
             Error::TooLarge => "the picture reaches beyond the guard band",
+            Error::EmptyTexture => "a texture without width or height",
+            Error::SubdivisionLevel => "a subdivision level outside 1 to 8",
         })
     }
 }

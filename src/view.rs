@@ -1,5 +1,7 @@
 //! A view: all that lies between vertices in eye space and a polygon on the screen.
 
+use core::cmp::Ordering;
+
 use crate::clip::{Behind, ClipCorner, DepthRange, Planes, Polygon, to_view};
 use crate::matrix::Matrix;
 use crate::num::{Block, Scaled, Word};
@@ -211,32 +213,56 @@ impl<V: Varying, const N: usize> Shape for Projected<V, N> {
 }
 
 impl<T: Word, W: Word, const N: usize> View<T, W, N> {
-    /// The polygon that is left of a triangle on the screen: clipped, projected, snapped, culled. `None` for nothing.
-    pub fn project<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3]) -> Option<Projected<V, N>> {
-        let eye = vertices.each_ref().map(|v| v.position);
-        let carried = vertices.each_ref().map(|v| v.carried);
-        let mut polygon = self.planes.clip(eye)?;
+    /// Calls `draw` with what is left of a triangle on the screen, clipped, projected, snapped and culled: nothing, or one
+    /// polygon, or, where user planes cut a triangle with w of both signs that is [divided by](Behind::Divide), the
+    /// triangles of its fan from the first corner (through infinity, the polygon itself is not a convex one).
+    pub fn project<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3], mut draw: impl FnMut(&Projected<V, N>)) {
+        let Some(mut polygon) = self.planes.clip(vertices.each_ref().map(|v| v.position)) else {
+            return;
+        };
         for corner in polygon.iter_mut() {
             corner.position = self.projection.transform(corner.position);
         }
-        let polygon = to_view(polygon, &self.viewport, self.depth_range, self.behind)?;
+        let vertex_w = vertices.each_ref().map(|v| w_of(self.projection.transform(v.position)));
+        let carried = vertices.each_ref().map(|v| v.carried);
+        let mut finish = |polygon| {
+            if let Some(projected) = self.finish(polygon, vertex_w, carried) {
+                draw(&projected);
+            }
+        };
+        if self.behind == Behind::Divide && polygon.len() > 3 && changes_sign(&polygon) {
+            for i in 2..polygon.len() {
+                let corners = [0, i - 1, i].into_iter().filter_map(|i| polygon.get(i));
+                finish(corners.copied().collect());
+            }
+        } else {
+            finish(polygon);
+        }
+    }
 
-        let weigh = Weigh::new(&polygon, eye.map(|p| w_of(self.projection.transform(p))), V::KIND);
-        let mut corners = polygon.iter().filter_map(|corner| {
+    /// From clip space to the screen.
+    fn finish<V: Carried>(
+        &self,
+        polygon: Polygon<ClipCorner<T>, N>,
+        vertex_w: [Scaled<T>; 3],
+        carried: [V::Vertex; 3],
+    ) -> Option<Projected<V, N>> {
+        let polygon = to_view(polygon, &self.viewport, self.depth_range, self.behind)?;
+        let weigh = Weigh::new(&polygon, vertex_w, V::KIND);
+        let place = |corner: &ClipCorner<T>| {
             let (x, y, depth) = self.viewport.place(corner.position, self.depth_range)?;
+            let varying = V::mix(carried, weigh.weights(corner));
             Some(ProjectedCorner {
                 position: (x, y),
                 depth,
-                varying: V::mix(carried, weigh.weights(corner)),
+                varying,
             })
-        });
-        let first = corners.next()?;
-        let mut projected = Projected {
-            corners: Polygon::default(),
-            first,
         };
-        projected.corners.push(first);
-        corners.for_each(|corner| projected.corners.push(corner));
+        let corners: Polygon<_, N> = polygon.iter().filter_map(place).collect();
+        let projected = Projected {
+            first: *corners.get(0)?,
+            corners,
+        };
 
         let area = doubled_area(&projected);
         let drawn = match self.cull {
@@ -246,6 +272,17 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         };
         drawn.then_some(projected)
     }
+}
+
+/// Whether some corners have w < 0 and some w > 0.
+fn changes_sign<T: Word, const N: usize>(polygon: &Polygon<ClipCorner<T>, N>) -> bool {
+    let any = |wanted: Ordering| {
+        polygon.iter().any(|corner| {
+            let [.., w] = corner.position.mantissas();
+            w.cmp(&T::ZERO) == wanted
+        })
+    };
+    any(Ordering::Less) && any(Ordering::Greater)
 }
 
 /// How the weights of a polygon's corners become shares.

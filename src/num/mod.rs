@@ -5,12 +5,16 @@
 //! largest of its block is rounded, and the bound is always relative to that largest number.
 
 mod block;
+mod power;
 mod recip;
+mod root;
 mod trig;
 mod word;
 
 pub use block::{Block, Scaled};
+pub use power::power;
 pub use recip::reciprocal;
+pub use root::{dot, reciprocal_square_root, square_root, unit, unit_wide};
 #[cfg(feature = "micromath")]
 pub use trig::Micromath;
 pub use trig::{Angle, SineTable, Trigonometry};

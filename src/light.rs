@@ -1,0 +1,373 @@
+//! Light on one fragment: suns and bulbs, diffuse and Blinn-Phong, any brightness, either sign.
+//!
+//! With surface colour o, unit normal n and eye position p of the fragment (the eye is the origin), every light whose
+//! direction l has c = n·l > 0 adds
+//!
+//! c · light · o + light · max(0, n·h)^a, h = unit(l + unit(−p)),
+//!
+//! the second term only for a [`Shiny`] surface. A sun's l is fixed, a bulb's is unit(b − p), and unit(0) is 0. A light with
+//! c ≤ 0 adds nothing at all. There is no ambient light, no fading with distance and no shadow.
+//!
+//! **Colours** are in units of 2^-16 of full, all of `i32`: ±2^15 of full. Nothing is clamped but the result, to that range:
+//! the sums are kept in 64 bits. Addition of integers commutes, so the order of lights does not matter to a bit. For still
+//! brighter lights give all light colours in a larger unit; the result is then in that unit too.
+//!
+//! **Error** against exact arithmetic, from the integers given: of c at most 6·2^-30, of k = n·h at most
+//! (4 + 5/|l + unit(−p)|)·2^-30; of k^a what that makes of it and 3·2^-30 of its own; each times the light; and 1 unit of the
+//! result (`tests/lighting.rs`). A hundred lights of colours −2…3 with a = 240 stay within 1/100 of a level of 255. Where c or
+//! |l + unit(−p)| is 0 but for its error, a highlight is either there or not: it begins with a jump.
+//!
+//! **Cost**: without a [`Shiny`] surface there is no code for highlights, with room for 0 bulbs none for bulbs.
+//!
+//! ```
+//! use fixel::light::{Light, Lights, Matte, Shiny};
+//!
+//! const FULL: i32 = 1 << 16;
+//! let mut lights = Lights::<i32, 1, 0>::default();
+//! // Along the view, orange.
+//! lights.add(Light::sun([0, 0, 1], [FULL, FULL / 2, 0])?)?;
+//! let scene = lights.at_scale(0);
+//!
+//! // A white surface half turned away: cos 60° = ½ of the light.
+//! let (normal, position) = ([1732, 0, 1000], [0, 0, -5]);
+//! let [red, green, blue] = scene.shade(normal, position, [FULL; 3], &Matte);
+//! assert!(red.abs_diff(FULL / 2) < 10 && green.abs_diff(FULL / 4) < 10 && blue == 0);
+//!
+//! // Polished, it also shows a highlight: l = unit(−p) = h, so cos 60° to the 8th.
+//! let [red, ..] = scene.shade(normal, position, [FULL; 3], &Shiny(8 << 16));
+//! assert!(red.abs_diff(FULL / 2 + FULL / 256) < 10);
+//! # Ok::<(), fixel::error::Error>(())
+//! ```
+
+use heapless::Vec;
+
+use crate::error::Error;
+use crate::num::{Block, Word, dot, power, unit, unit_wide};
+
+/// A light in eye space. Colours in units of 2^-16 of full, any sign.
+///
+/// ```
+/// use fixel::{light::Light, num::Block};
+/// let lamp = Light::Bulb { position: Block::<i32, 3>::from_integers([0, 5, -2]), color: [3 << 16, 0, -2 << 16] };
+/// let sun = Light::<i32>::sun([0, 0, -3], [1 << 16; 3])?;
+/// assert_eq!(sun, Light::Sun { direction: [0, 0, -1 << 30], color: [1 << 16; 3] });
+/// # Ok::<(), fixel::error::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Light<T> {
+    /// Infinitely far away.
+    Sun {
+        /// Towards the light, length 1 in units of 2^-30 (see [`unit`]).
+        direction: [i32; 3],
+        /// Its colour.
+        color: [i32; 3],
+    },
+    /// At a point.
+    Bulb {
+        /// The point.
+        position: Block<T, 3>,
+        /// Its colour.
+        color: [i32; 3],
+    },
+}
+
+impl<T> Light<T> {
+    /// A sun in the direction of a vector of any length.
+    ///
+    /// # Errors
+    /// [`Error::ZeroVector`] for length 0.
+    pub fn sun(towards: [i32; 3], color: [i32; 3]) -> Result<Self, Error> {
+        let direction = unit(towards).ok_or(Error::ZeroVector)?;
+        Ok(Light::Sun { direction, color })
+    }
+}
+
+/// Suns or bulbs at most; see [`Sum`].
+const MOST: usize = 1 << 15;
+
+/// The lights of a scene: at most `SUNS` and `BULBS` of them, at most 32768 of either kind.
+///
+/// ```
+/// use fixel::{error::Error, light::{Light, Lights}};
+/// let mut lights = Lights::<i32, 1, 0>::default();
+/// let sun = Light::sun([1, 2, 3], [1 << 16; 3])?;
+/// assert_eq!(lights.add(sun), Ok(()));
+/// assert_eq!(lights.add(sun), Err(Error::TooManyLights));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Lights<T, const SUNS: usize, const BULBS: usize> {
+    suns: Vec<Lamp<i32>, SUNS>,
+    bulbs: Vec<(Block<T, 3>, [i32; 3]), BULBS>,
+}
+
+/// A light as a fragment sees it: a sun's direction, or a bulb's position at the fragments' scale.
+#[derive(Debug, Clone, Copy)]
+struct Lamp<P> {
+    place: [P; 3],
+    color: [i32; 3],
+}
+
+impl<T, const SUNS: usize, const BULBS: usize> Default for Lights<T, SUNS, BULBS> {
+    fn default() -> Self {
+        const { assert!(SUNS <= MOST && BULBS <= MOST) };
+        Lights {
+            suns: Vec::new(),
+            bulbs: Vec::new(),
+        }
+    }
+}
+
+impl<T: Word, const SUNS: usize, const BULBS: usize> Lights<T, SUNS, BULBS> {
+    /// One light more.
+    ///
+    /// # Errors
+    /// [`Error::TooManyLights`] when there is no room for another of its kind.
+    pub fn add(&mut self, light: Light<T>) -> Result<(), Error> {
+        match light {
+            Light::Sun { direction, color } => self
+                .suns
+                .push(Lamp {
+                    place: direction,
+                    color,
+                })
+                .ok(),
+            Light::Bulb { position, color } => self.bulbs.push((position, color)).ok(),
+        }
+        .ok_or(Error::TooManyLights)
+    }
+
+    /// Whether there is none: then surfaces have their own colour (HW2), and nothing of this module is needed.
+    pub fn is_empty(&self) -> bool {
+        self.suns.is_empty() && self.bulbs.is_empty()
+    }
+
+    /// The lights for fragments whose positions are in units of 2^`exponent`: once per draw or primitive.
+    ///
+    /// Bulbs are rounded to that unit, as fragments are: from d units away the direction is within 1/d. However far a bulb, no
+    /// more is lost than 2^-29 of the direction.
+    pub fn at_scale(&self, exponent: i32) -> Lit<'_, BULBS> {
+        let mut bulbs = Vec::new();
+        for &(position, color) in &self.bulbs {
+            // As many as here have room there; `collect` would carry a panic along.
+            let _ = bulbs.push(Lamp {
+                place: to_units(position, exponent),
+                color,
+            });
+        }
+        Lit {
+            suns: &self.suns,
+            bulbs,
+        }
+    }
+}
+
+/// A position in units of 2^`exponent`, |c| ≤ 2^62. One too far for that is brought nearer on its line from the origin, to
+/// 2^61 at least, where a fragment's |p| ≤ 2^31 turns the direction by no more than 2^-30.
+fn to_units<T: Word>(position: Block<T, 3>, exponent: i32) -> [i64; 3] {
+    let mantissas = position.mantissas().map(T::to_i64);
+    let all_bits = mantissas.iter().fold(0, |bits, c| bits | c.unsigned_abs());
+    let room = (all_bits.leading_zeros() as i32 - 2).max(0);
+    let shift = position.exponent().saturating_sub(exponent);
+    if shift >= 0 {
+        let up = shift.min(room) as u32;
+        return mantissas.map(|c| c << up.min(63));
+    }
+    let down = shift.unsigned_abs();
+    if down > 62 {
+        return [0; 3];
+    }
+    // |c| ≤ 2^62 leaves room for the half.
+    mantissas.map(|c| (c + (1 << (down - 1))) >> down)
+}
+
+/// [`Lights`] as the fragments of one primitive need them; made by [`Lights::at_scale`].
+///
+/// ```
+/// use fixel::{light::{Light, Lights, Matte}, num::Block};
+/// let mut lights = Lights::<i32, 0, 1>::default();
+/// lights.add(Light::Bulb { position: Block::from_integers([0, 0, 4]), color: [1 << 16; 3] })?;
+/// // Fragments in 1/256: the bulb is at (0, 0, 1024) now, 512 before this one, and shines fully on it.
+/// let scene = lights.at_scale(-8);
+/// assert_eq!(scene.shade([0, 0, 9], [0, 0, 512], [1000, 0, -1000], &Matte), [1000, 0, -1000]);
+/// # Ok::<(), fixel::error::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Lit<'a, const BULBS: usize> {
+    suns: &'a [Lamp<i32>],
+    bulbs: Vec<Lamp<i64>, BULBS>,
+}
+
+impl<const BULBS: usize> Lit<'_, BULBS> {
+    /// The colour of one fragment, in units of 2^-16 of full, saturated at ±2^15 of full and otherwise not clamped.
+    ///
+    /// `normal`: any length; interpolated ones need not be normalised. 0 is dark. `position`: the fragment's in eye space, in
+    /// the units given to [`at_scale`](Lights::at_scale); not looked at with suns only on a [`Matte`] surface. `surface`:
+    /// its colour without light, in units of 2^-16 of full.
+    #[inline]
+    pub fn shade<F: Finish>(&self, normal: [i32; 3], position: [i32; 3], surface: [i32; 3], finish: &F) -> [i32; 3] {
+        let Some(normal) = unit(normal) else {
+            return [0; 3];
+        };
+        let mut sum = Sum {
+            normal,
+            finish,
+            to_eye: [0; 3],
+            diffuse: [0; 3],
+            specular: [0; 3],
+        };
+        if F::SHINES {
+            sum.to_eye = unit(position).unwrap_or_default().map(|c| -c);
+        }
+        for sun in self.suns {
+            sum.add(sun.place, sun.color);
+        }
+        // Without room for bulbs the compiler drops what follows.
+        if BULBS > 0 {
+            for bulb in &self.bulbs {
+                if let Some(direction) = unit_wide(minus(bulb.place, position)) {
+                    sum.add(direction, bulb.color);
+                }
+            }
+        }
+        sum.color(surface)
+    }
+}
+
+/// What the lights so far add, in units of 2^-30 of full. A light adds less than 2^45.1, so that 2^16 of them stay below
+/// 2^61.1.
+struct Sum<'a, F> {
+    normal: [i32; 3],
+    finish: &'a F,
+    to_eye: [i32; 3],
+    /// Σ c · light: the surface's colour is the same for all.
+    diffuse: [i64; 3],
+    specular: [i64; 3],
+}
+
+impl<F: Finish> Sum<'_, F> {
+    #[inline]
+    fn add(&mut self, direction: [i32; 3], color: [i32; 3]) {
+        let cosine = dot(self.normal, direction);
+        if cosine <= 0 {
+            return;
+        }
+        accumulate(&mut self.diffuse, color, to_fraction(cosine));
+        if F::SHINES {
+            let half = unit(plus(direction, self.to_eye)).unwrap_or_default();
+            let strength = self.finish.strength(to_fraction(dot(self.normal, half)).max(0));
+            accumulate(&mut self.specular, color, strength);
+        }
+    }
+
+    #[inline]
+    fn color(&self, surface: [i32; 3]) -> [i32; 3] {
+        let mut specular = self.specular.into_iter();
+        let mut parts = self.diffuse.into_iter().zip(surface);
+        // Both iterators have 3 items.
+        core::array::from_fn(|_| {
+            let (diffuse, surface) = parts.next().unwrap_or_default();
+            let mut color = times(diffuse, surface);
+            if F::SHINES {
+                color += (specular.next().unwrap_or_default() + (1 << 13)) >> 14;
+            }
+            color.clamp(i32::MIN as i64, i32::MAX as i64) as i32
+        })
+    }
+}
+
+/// How a surface throws light back towards the eye: [`Matte`], [`Shiny`], or one's own.
+///
+/// ```
+/// use fixel::{light::Finish, num::power};
+///
+/// /// A highlight in two steps, for a cartoon.
+/// struct Cartoon;
+///
+/// impl Finish for Cartoon {
+///     const SHINES: bool = true;
+///     fn strength(&self, cosine: i32) -> i32 {
+///         if cosine > (1 << 30) / 10 * 9 { 1 << 30 } else { 0 }
+///     }
+/// }
+/// assert_eq!(Cartoon.strength(1 << 29), 0);
+/// ```
+pub trait Finish {
+    /// Whether there is a highlight at all; without one there is no code for it.
+    const SHINES: bool;
+    /// Share of the light, best 0…1, for n·h in 0…1, both in units of 2^-30. The cosine may pass 1 by a few units.
+    fn strength(&self, cosine: i32) -> i32;
+}
+
+/// No highlight.
+///
+/// ```
+/// use fixel::light::{Finish, Matte};
+/// assert!(!Matte::SHINES);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Matte;
+
+impl Finish for Matte {
+    const SHINES: bool = false;
+    #[inline(always)]
+    fn strength(&self, _: i32) -> i32 {
+        0
+    }
+}
+
+/// Blinn-Phong: (n·h)^a with a in units of 2^-16, see [`power`].
+///
+/// ```
+/// use fixel::light::{Finish, Shiny};
+/// assert_eq!(Shiny(2 << 16).strength(1 << 29), 1 << 28);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shiny(pub u32);
+
+impl Finish for Shiny {
+    const SHINES: bool = true;
+    #[inline]
+    fn strength(&self, cosine: i32) -> i32 {
+        power(cosine, self.0)
+    }
+}
+
+/// Units of 2^-60 to units of 2^-30, rounded.
+#[inline(always)]
+fn to_fraction(cosine: i64) -> i32 {
+    ((cosine + (1 << 29)) >> 30) as i32
+}
+
+/// sums += color · share, from units of 2^-46 to 2^-30.
+#[inline(always)]
+fn accumulate(sums: &mut [i64; 3], color: [i32; 3], share: i32) {
+    for (sum, color) in sums.iter_mut().zip(color) {
+        *sum += (color as i64 * share as i64) >> 16;
+    }
+}
+
+/// a·b·2^-30, rounded, in two halves, for |a| < 2^61.5: each product is below 2^63.
+#[inline(always)]
+fn times(a: i64, b: i32) -> i64 {
+    (((a >> 32) * b as i64) << 2) + (((a & u32::MAX as i64) * b as i64 + (1 << 29)) >> 30)
+}
+
+#[inline(always)]
+fn minus(a: [i64; 3], b: [i32; 3]) -> [i64; 3] {
+    let mut difference = a;
+    for (a, b) in difference.iter_mut().zip(b) {
+        *a -= b as i64;
+    }
+    difference
+}
+
+#[inline(always)]
+fn plus(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
+    let mut sum = a;
+    for (a, b) in sum.iter_mut().zip(b) {
+        // 1 + 1 is a unit too much for the word.
+        *a = a.saturating_add(b);
+    }
+    sum
+}
