@@ -4,10 +4,12 @@
 //! channel in 2^-16 levels). The plane through the corners of the polygon's largest triangle is kept as the value at one
 //! pixel and two steps, in units of 2^-14 of that. Evaluating it is exact integer arithmetic on absolute positions.
 //!
-//! **Error.** Each step is the exact one cut towards zero, by 2^-14 unit and by 2^-28 of itself (normalised numerator,
+//! **Error.** Each step is the exact one cut towards zero, by 2^-14 unit and by 2^-29 of itself (normalised numerator,
 //! reciprocal, product). At n_x columns and n_y rows from the anchor that is (n_x + n_y)·2^-14 unit and, in addition,
-//! 2^-28·(|step_x|·n_x + |step_y|·n_y). Along a span the cut steps add up to no more than (n − 1)·2^-14 unit, or with 32-bit stepping
-//! (n − 1) units.
+//! 2^-29·(|step_x|·n_x + |step_y|·n_y), at most 2^-24 of the values' range: where the polygon is so thin that it could be
+//! more (its box more than 8 times its doubled area), or so small that a step overflows, the first value of every span is
+//! computed from the exact numerator instead, to 2^-29 of the range. Along a span the cut steps add up to no more than
+//! (n − 1)·2^-14 unit, or with 32-bit stepping (n − 1) units.
 //!
 //! **Range.** The first value of a span is clamped so that it *and* the last lie between the least and the largest corner
 //! value. The steps being cut towards zero, such a start exists, and so every value of every pixel is one that the polygon
@@ -20,7 +22,7 @@ use crate::span::{Corners, Span};
 /// Bits below a unit of a corner's value.
 pub const EXTRA_BITS: u32 = 14;
 
-/// |steps| are saturated here: a polygon that is wider than one pixel in any row stays below (2^31 per pixel).
+/// |steps| are saturated here: a polygon that covers two samples of a row stays below (2^31 per pixel).
 const STEP_LIMIT: i64 = 1 << (31 + EXTRA_BITS);
 
 const _: () = {
@@ -43,6 +45,8 @@ pub struct Basis {
     reciprocal: u32,
     shift: i32,
     negative: bool,
+    /// So thin that steps from the anchor would add up their errors: more than 8 boxes to the doubled area.
+    thin: bool,
 }
 
 impl Basis {
@@ -56,8 +60,10 @@ impl Basis {
         };
         let (mut area, mut best) = (0i64, 1);
         let mut previous = from_origin(1);
+        let mut reach = (previous.0.abs(), previous.1.abs());
         for i in 2..corners.count() {
             let next = from_origin(i);
+            reach = (reach.0.max(next.0.abs()), reach.1.max(next.1.abs()));
             let doubled = previous.0 * next.1 - previous.1 * next.0;
             if doubled.unsigned_abs() > area.unsigned_abs() {
                 (area, best) = (doubled, i - 1);
@@ -85,6 +91,7 @@ impl Basis {
             reciprocal: reciprocal(divisor).min(u32::MAX as u64) as u32,
             shift,
             negative: area < 0,
+            thin: reach.0 * reach.1 > 8 * magnitude as i64,
         })
     }
 
@@ -100,16 +107,34 @@ impl Basis {
     pub fn plane(&self, values: [i32; 3], range: (i32, i32)) -> Plane {
         let [origin, a, b] = values.map(i64::from);
         let (da, db) = (a - origin, b - origin);
-        // |d| < 2^31, positions within 2^24 of each other: below 2^56.
-        let step_x = self.step(da * self.second.1 - db * self.first.1);
-        let step_y = self.step(db * self.first.0 - da * self.second.0);
-        let offset = (step_x * self.fraction.0 as i64 + step_y * self.fraction.1 as i64) >> SUBPIXEL_BITS;
+        // |d| < 2^31, positions within 2^25 of each other: below 2^57.
+        let numerator_x = da * self.second.1 - db * self.first.1;
+        let numerator_y = db * self.first.0 - da * self.second.0;
+        let (step_x, step_y) = (self.step(numerator_x), self.step(numerator_y));
+        let value = origin << EXTRA_BITS;
+        let exact = self.thin || step_x.abs() == STEP_LIMIT || step_y.abs() == STEP_LIMIT;
+        let course = if exact {
+            let (reciprocal, shift) = (self.reciprocal, self.shift);
+            let sign = if self.negative { -1 } else { 1 };
+            Course::Exact {
+                numerator: (sign * numerator_x, sign * numerator_y),
+                fraction: self.fraction,
+                reciprocal,
+                shift,
+            }
+        } else {
+            let offset = (step_x * self.fraction.0 as i64 + step_y * self.fraction.1 as i64) >> SUBPIXEL_BITS;
+            Course::Steps {
+                value: value - offset,
+                step_y,
+            }
+        };
         Plane {
             anchor: self.anchor,
-            value: (origin << EXTRA_BITS) - offset,
+            value,
             step_x,
-            step_y,
             range,
+            course,
         }
     }
 
@@ -145,10 +170,25 @@ impl Basis {
 #[derive(Debug, Clone, Copy)]
 pub struct Plane {
     anchor: (i32, i32),
+    /// At corner 0.
     value: i64,
     step_x: i64,
-    step_y: i64,
     range: (i32, i32),
+    course: Course,
+}
+
+/// How a plane gets from its anchor to a span.
+#[derive(Debug, Clone, Copy)]
+enum Course {
+    /// By steps from the anchor pixel.
+    Steps { value: i64, step_y: i64 },
+    /// From the change per subpixel times the doubled area, which is exact.
+    Exact {
+        numerator: (i64, i64),
+        fraction: (i32, i32),
+        reciprocal: u32,
+        shift: i32,
+    },
 }
 
 /// Only where a polygon's other corners were rounded off the plane, so that it leaves their range by the rounding.
@@ -207,9 +247,34 @@ impl Plane {
     /// The plane at the first covered column of the row, on the window or not.
     #[inline(always)]
     fn at(&self, span: &Span) -> i64 {
-        let columns = (span.whole_left - self.anchor.0) as i64;
-        let rows = (span.row - self.anchor.1) as i64;
-        self.value + self.step_x * columns + self.step_y * rows
+        let (columns, rows) = (span.whole_left - self.anchor.0, span.row - self.anchor.1);
+        match self.course {
+            Course::Steps { value, step_y } => value + self.step_x * columns as i64 + step_y * rows as i64,
+            Course::Exact { .. } => self.exactly_at(columns, rows),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn exactly_at(&self, columns: i32, rows: i32) -> i64 {
+        let Course::Exact {
+            numerator,
+            fraction,
+            reciprocal,
+            shift,
+        } = self.course
+        else {
+            return self.value;
+        };
+        let dx = columns as i64 * SUBPIXELS as i64 - fraction.0 as i64;
+        let dy = rows as i64 * SUBPIXELS as i64 - fraction.1 as i64;
+        // Below 2^57·2^26·2, times 2^32: 116 bits.
+        let product = (numerator.0 as i128 * dx as i128 + numerator.1 as i128 * dy as i128) * reciprocal as i128;
+        // 1/area = reciprocal·2^-(63 + shift), with the shift between −31 and 20.
+        let change = product >> (63 + shift - EXTRA_BITS as i32);
+        // Samples of the polygon lie in the range or, by its rounding, next to it: nothing larger is meant.
+        const MOST: i128 = 1 << 60;
+        self.value + change.max(-MOST).min(MOST) as i64
     }
 
     /// `start` moved so that it and the last value of the whole span lie in the corners' range, then taken to the

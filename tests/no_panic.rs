@@ -74,7 +74,7 @@ fn window() -> impl Strategy<Value = Window> {
     prop_oneof![1 => anywhere, 2 => ordinary]
 }
 
-/// An ordinary window: [`Buffer`] refuses the others.
+/// Positions near the windows, and anywhere within the guard band.
 fn positions() -> impl Strategy<Value = [Position; 3]> {
     let near = (-9000..9000i32, -9000..9000i32);
     let one = prop_oneof![2 => near, 1 => (int(), int())];
@@ -112,6 +112,8 @@ struct Parts<T> {
 fn parts<T: Word>(word: impl Strategy<Value = T> + Clone + 'static) -> impl Strategy<Value = Parts<T>> {
     use prop::sample::select;
     let point = || (prop::array::uniform4(word.clone()), exponent());
+    let near = prop::array::uniform4(-9..10i32).prop_map(|p| (p.map(T::from_i32), 0));
+    let vertices = prop_oneof![prop::array::uniform3(point()), prop::array::uniform3(near)];
     let matrix = (prop::array::uniform16(word.clone()), exponent());
     let edges = (int(), int(), any::<u16>(), any::<u16>(), any::<bool>(), any::<bool>());
     let small = (-9..9i32, -9..9i32, 0..70u16, 0..70u16, any::<bool>(), any::<bool>());
@@ -122,7 +124,7 @@ fn parts<T: Word>(word: impl Strategy<Value = T> + Clone + 'static) -> impl Stra
         select(&[DepthRange::ZeroToOne, DepthRange::MinusOneToOne, DepthRange::Unlimited][..]),
         select(&[Behind::Cut, Behind::Divide][..]),
         select(&[Cull::Nothing, Cull::Clockwise, Cull::CounterClockwise][..]),
-        prop::array::uniform3(point()),
+        vertices,
         prop::array::uniform3(prop::array::uniform2(int())),
     )
         .prop_map(

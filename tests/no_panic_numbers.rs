@@ -25,7 +25,13 @@ fn wide_int() -> impl Strategy<Value = i64> {
 }
 
 fn wide_long() -> impl Strategy<Value = i128> {
-    prop_oneof![any::<i128>(), long().prop_map(i128::from), Just(i128::MAX), Just(i128::MIN), Just(1 << 124)]
+    prop_oneof![
+        any::<i128>(),
+        long().prop_map(i128::from),
+        Just(i128::MAX),
+        Just(i128::MIN),
+        Just(1 << 124)
+    ]
 }
 
 fn exponent() -> impl Strategy<Value = i32> + Clone {
@@ -38,16 +44,33 @@ fn blocks<T: Word>(word: impl Strategy<Value = T> + Clone + 'static) -> impl Str
 }
 
 fn well_formed<T: Word, const N: usize>(block: Block<T, N>) {
-    let largest = block.mantissas().map(|m| m.to_i64().unsigned_abs()).into_iter().max().unwrap();
+    let largest = block
+        .mantissas()
+        .map(|m| m.to_i64().unsigned_abs())
+        .into_iter()
+        .max()
+        .unwrap();
     let top = 1u64 << T::BITS;
-    assert!(largest == 0 || (top / 2..=top).contains(&largest), "{block:?} is not normalised");
+    assert!(
+        largest == 0 || (top / 2..=top).contains(&largest),
+        "{block:?} is not normalised"
+    );
 }
 
 fn arithmetic<T: Word>(n: &[(T, i32)]) {
     let scalar = |i: usize| Scaled::new([n[i].0], n[i].1);
     let vector = |i: usize| Block::new([n[i].0, n[i + 1].0, n[i + 2].0], n[i].1);
     let (a, b, c) = (vector(0), vector(3), scalar(6));
-    for block in [a, b, a.plus(b), a.minus(b), a.times(c), a.over(c).unwrap_or(a), a.cross(b), a.negated()] {
+    for block in [
+        a,
+        b,
+        a.plus(b),
+        a.minus(b),
+        a.times(c),
+        a.over(c).unwrap_or(a),
+        a.cross(b),
+        a.negated(),
+    ] {
         well_formed(block);
         well_formed(block.scaled(n[7].1));
     }
@@ -93,7 +116,9 @@ fn matrices<T: Word>(n: &[(T, i32)], angle: u64) {
 fn clipped<T: Word>(n: &[(T, i32)]) {
     let point = |i: usize| Block::new([n[i].0, n[i + 1].0, n[i + 2].0, n[i + 3].0], n[i].1);
     let mut planes = Planes::<T, 5>::default();
-    [3, 4, 5, 6, 12].map(|i| planes.push(point(i)).unwrap());
+    for i in [3, 4, 5, 6, 12] {
+        planes.push(point(i)).unwrap();
+    }
     assert!(planes.push(point(0)).is_err());
     if let Some(polygon) = planes.clip([point(0), point(1), point(2)]) {
         assert!((1..=3 + 5).contains(&polygon.len()) && polygon.get(polygon.len()).is_none());
@@ -102,7 +127,9 @@ fn clipped<T: Word>(n: &[(T, i32)]) {
 }
 
 fn viewports<W: Word, T: Word>([left, top]: [i32; 2], size: [u16; 2], n: &[(T, i32)]) {
-    let Ok(viewport) = Viewport::<W>::new(left, top, size[0], size[1]) else { return };
+    let Ok(viewport) = Viewport::<W>::new(left, top, size[0], size[1]) else {
+        return;
+    };
     let limit = W::GUARD * 256;
     for viewport in [viewport, viewport.y_up(), viewport.samples_at_centers().y_up()] {
         for range in [DepthRange::ZeroToOne, DepthRange::MinusOneToOne, DepthRange::Unlimited] {

@@ -51,18 +51,25 @@ pub fn square_root(square: u64) -> u32 {
 #[inline]
 pub fn reciprocal_square_root(square: u32) -> u32 {
     let square = square.max(1 << 30);
-    let seed = SEEDS.get(((square >> 25) - 32) as usize).copied().unwrap_or(1 << 15) as u32;
-    // e in units of 2^-31, |e| < 2^-5.8.
-    let error = (ONE.wrapping_sub(square as u64 * (seed * seed) as u64) as i64 >> 31) as i32;
-    let factor = (error >> 1) + ((3 * ((error as i64 * error as i64) >> 31) as i32) >> 3);
-    let y = (seed << 16) as i64 + ((seed as i64 * factor as i64) >> 15);
-    let y = y.clamp(1 << 31, u32::MAX as i64) as u64;
+    let y = SEEDS.get(((square >> 25) - 32) as usize).copied().unwrap_or(1 << 15) as u32;
+    // e in units of 2^-30, |e| < 2^-5.8, and e² in units of 2^-28: 3/8 of it are 3/2 units of 2^-30.
+    let error = (1 << 30) - high(square as u64 * (y * y) as u64) as i32;
+    let error_squared = high_signed(error as i64 * error as i64);
+    let factor = (error >> 1) + error_squared + (error_squared >> 1);
+    let y = corrected(y << 16, high_signed((y << 15) as i64 * factor as i64) << 3);
 
-    // y² in units of 2^-30, rounded to nearest: y ≤ 2^32 − 1 leaves room for the half. |e| < 2^-18.
-    let y_squared = (y * y + (1 << 31)) >> 32;
-    let error = (ONE.wrapping_sub(square as u64 * y_squared) as i64 >> 30) as i32;
-    let y = y as i64 + ((y as i64 * error as i64 + (1 << 32)) >> 33);
-    y.clamp(1 << 31, u32::MAX as i64) as u32
+    // y² in units of 2^-30, rounded: y ≤ 2^32 − 1 leaves room for the half. |e| < 2^-18, in units of 2^-32.
+    let y_squared = high(y as u64 * y as u64 + HALF);
+    let error = (ONE.wrapping_sub(square as u64 * y_squared as u64) as i64 >> 30) as i32;
+    let step = high_signed((y >> 1) as i64 * error as i64 + HALF as i64);
+    corrected(y, step)
+}
+
+/// An estimate in 2^31…2^32 plus a small step, but 2^32 − 1 where that passes the word.
+#[inline(always)]
+fn corrected(estimate: u32, step: i32) -> u32 {
+    let sum = estimate.wrapping_add_signed(step);
+    if sum < 1 << 30 { u32::MAX } else { sum }
 }
 
 /// The same direction with length 1, in units of 2^-30; `None` for the zero vector.
@@ -87,12 +94,16 @@ pub fn unit(vector: [i32; 3]) -> Option<[i32; 3]> {
     let room = all_bits.leading_zeros().saturating_sub(1);
     let vector = vector.map(|c| c << room);
     let sum: u64 = vector.iter().map(|&c| (c as i64 * c as i64) as u64).sum();
-    let shift = sum.leading_zeros() & !1;
-    let inverse = reciprocal_square_root(((sum << shift) >> 32) as u32);
-    // c/√sum = c · inverse · 2^(shift/2 − 63). |c·inverse| ≤ (2^31 − 1)·(2^32 − 1), which leaves room for the half.
-    let down = 33 - shift / 2;
-    let half = 1i64 << (down - 1);
-    Some(vector.map(|c| ((c as i64 * inverse as i64 + half) >> down) as i32))
+    // As a word of 2^30…2^32: from 2^62 up the high one, below that times 4, which is taken back by half.
+    let (word, down) = if sum >> 62 == 0 {
+        ((sum >> 30) as u32, 0)
+    } else {
+        (high(sum), 1)
+    };
+    let inverse = reciprocal_square_root(word);
+    // c/√sum = c · inverse · 2^-(62 + down). |c·inverse| ≤ (2^31 − 1)·(2^32 − 1), which leaves room for the half.
+    let half = (HALF as i64) << down;
+    Some(vector.map(|c| high_signed(c as i64 * inverse as i64 + half) >> down))
 }
 
 /// [`unit`] of longer numbers: differences of positions, cross products.
@@ -107,8 +118,10 @@ pub fn unit(vector: [i32; 3]) -> Option<[i32; 3]> {
 pub fn unit_wide(vector: [i64; 3]) -> Option<[i32; 3]> {
     let all_bits = vector.iter().fold(0, |bits, c| bits | c.unsigned_abs());
     // 31 bits and a sign remain; what is cut off is below 2^-30 of the largest.
-    let excess = 33u32.saturating_sub(all_bits.leading_zeros());
-    unit(vector.map(|c| (c >> excess) as i32))
+    unit(match 33u32.checked_sub(all_bits.leading_zeros()) {
+        None | Some(0) => vector.map(|c| c as i32),
+        Some(excess) => vector.map(|c| (c >> excess) as i32),
+    })
 }
 
 /// The dot product of two unit vectors in units of 2^-60; components of at most 2^30 + 8.
@@ -121,6 +134,21 @@ pub fn unit_wide(vector: [i64; 3]) -> Option<[i32; 3]> {
 pub fn dot(a: [i32; 3], b: [i32; 3]) -> i64 {
     a.into_iter().zip(b).map(|(a, b)| a as i64 * b as i64).sum()
 }
+
+/// Bits 32 and up: a register on its own.
+#[inline(always)]
+fn high(product: u64) -> u32 {
+    (product >> 32) as u32
+}
+
+/// Bits 32 and up.
+#[inline(always)]
+fn high_signed(product: i64) -> i32 {
+    (product >> 32) as i32
+}
+
+/// Half a unit of [`high`].
+const HALF: u64 = 1 << 31;
 
 /// 1 in units of 2^-62.
 const ONE: u64 = 1 << 62;

@@ -51,9 +51,8 @@ impl Case<'_> {
             return if empty { Class::Edge } else { Class::Unexplained };
         }
         let reference_certain = of(self.reference.primitive).any(|(_, claim)| certain(claim));
-        let hidden = |claim: &Claim| {
-            (claims.iter()).any(|(_, other)| certain(other) && other.depth.high < claim.depth.low)
-        };
+        let hidden =
+            |claim: &Claim| (claims.iter()).any(|(_, other)| certain(other) && other.depth.high < claim.depth.low);
         let mut class = Class::Unexplained;
         for (shape, claim) in of(self.fixed.primitive).filter(|(_, claim)| !hidden(claim)) {
             let explained = if !certain(claim) || self.reference.primitive != 0 && !reference_certain {
@@ -75,8 +74,7 @@ impl Case<'_> {
     fn fits(&self, shape: &Shape<'_>, known: Option<[f64; 3]>) -> Verdict {
         let [r, g, b, alpha] = self.fixed.rgba;
         let within = |colors: [Interval; 3]| {
-            (colors.iter().zip([r, g, b]))
-                .all(|(c, level)| (byte(c.low)..=byte(c.high)).contains(&level))
+            (colors.iter().zip([r, g, b])).all(|(c, level)| (byte(c.low)..=byte(c.high)).contains(&level))
         };
         match shape.allows(self.sample, known, &within) {
             _ if alpha != 255 => Verdict::Differs,

@@ -13,6 +13,8 @@ mod shape;
 pub mod stated;
 mod tiles;
 
+use rayon::prelude::*;
+
 use crate::reference::Rendered;
 use judge::Case;
 use picture::FixedPicture;
@@ -89,9 +91,7 @@ pub fn compare(fixed: &FixedPicture, reference: &Rendered) -> Comparison {
     assert_eq!(size, other, "pictures of one scene have one size");
     let bytes = reference.bytes();
     let mut comparison = measured(fixed, reference, &bytes);
-    let differing: Vec<usize> = (0..bytes.len())
-        .filter(|&i| fixed.pixels[i].rgba != bytes[i])
-        .collect();
+    let differing: Vec<usize> = (0..bytes.len()).filter(|&i| fixed.pixels[i].rgba != bytes[i]).collect();
     comparison.classes = vec![Class::Equal; bytes.len()];
     for (&i, class) in differing.iter().zip(classify(fixed, reference, &differing)) {
         comparison.classes[i] = class;
@@ -151,7 +151,7 @@ fn classify(fixed: &FixedPicture, reference: &Rendered, differing: &[usize]) -> 
         }
         case.same_winner(of_primitive(&shapes, case.fixed.primitive))
     };
-    differing.iter().map(class).collect()
+    differing.par_iter().map(class).collect()
 }
 
 /// The shapes of one primitive; they stand together, since primitives are numbered in drawing order.

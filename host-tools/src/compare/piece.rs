@@ -23,9 +23,7 @@ struct Linear {
 
 impl Linear {
     fn at(&self, p: [f64; 2]) -> f64 {
-        self.value
-            + self.gradient[0] * (p[0] - self.origin[0])
-            + self.gradient[1] * (p[1] - self.origin[1])
+        self.value + self.gradient[0] * (p[0] - self.origin[0]) + self.gradient[1] * (p[1] - self.origin[1])
     }
 
     /// What the core's relative error of gradients adds up to over the extents of a polygon.
@@ -73,7 +71,11 @@ pub struct Piece {
 
 /// Half the side of the guard band of a picture of `size` px.
 pub fn guard(size: [f64; 2]) -> f64 {
-    if size[0].max(size[1]) <= GUARD { GUARD } else { WIDE_GUARD }
+    if size[0].max(size[1]) <= GUARD {
+        GUARD
+    } else {
+        WIDE_GUARD
+    }
 }
 
 impl Piece {
@@ -123,7 +125,8 @@ impl Piece {
     /// z/w as the core interpolates it, before it is rounded to 16 bits.
     pub fn interpolated_depth(&self, p: [f64; 2]) -> Interval {
         let swing = self.fit.map_or(0.0, |fit| fit.depth.swing(self.extents));
-        self.moved_depth(p, self.spread * self.reach(p)).widened(self.depth_steps + swing)
+        self.moved_depth(p, self.spread * self.reach(p))
+            .widened(self.depth_steps + swing)
     }
 
     fn moved_depth(&self, p: [f64; 2], by: f64) -> Interval {
@@ -142,7 +145,11 @@ impl Piece {
     /// The colour as the core may have it at a sample; `known` is the reference's own value there, else the triangle's is
     /// continued to it. None is a pole: 1/w is within its bound of 0 there, and the colour may be anything.
     pub fn color(&self, p: [f64; 2], known: Option<[f64; 3]>) -> Option<[Interval; 3]> {
-        let greatest = self.corners.iter().flat_map(|c| c.color.map(f64::abs)).fold(0.0, f64::max);
+        let greatest = self
+            .corners
+            .iter()
+            .flat_map(|c| c.color.map(f64::abs))
+            .fold(0.0, f64::max);
         let arithmetic = COLOR_LEVELS / 255.0 * greatest.max(1.0);
         if !self.gouraud {
             return Some(self.corners[0].color.map(|c| Interval::around(c, arithmetic)));
@@ -181,7 +188,9 @@ impl Piece {
     /// The least |1/w| within δ of a sample; with one sign it is never below the corners' least.
     fn least_q(&self, p: [f64; 2]) -> f64 {
         let corners = Interval::of(self.corners.map(|c| c.w.recip().abs())).low;
-        let here = self.fit.map_or(0.0, |fit| fit.q.at(p).abs() - fit.q.slope() * self.spread * self.reach(p));
+        let here = self.fit.map_or(0.0, |fit| {
+            fit.q.at(p).abs() - fit.q.slope() * self.spread * self.reach(p)
+        });
         if self.mixed { here } else { here.max(corners) }
     }
 }
@@ -194,9 +203,7 @@ impl Fit {
     }
 
     fn through(corners: &[Corner; 3], size: [f64; 2]) -> Option<Self> {
-        let distance = |c: &Corner| {
-            (c.position[0] - size[0] / 2.0).hypot(c.position[1] - size[1] / 2.0)
-        };
+        let distance = |c: &Corner| (c.position[0] - size[0] / 2.0).hypot(c.position[1] - size[1] / 2.0);
         // From the corner nearest to the screen, so that rounding grows with the distance from there.
         let mut sorted = *corners;
         sorted.sort_by(|a, b| distance(a).total_cmp(&distance(b)));

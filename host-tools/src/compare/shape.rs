@@ -28,6 +28,8 @@ pub struct Shape<'a> {
     /// The log's entry.
     pub polygon: &'a Polygon,
     pieces: Vec<Piece>,
+    /// The picture's centre, in px.
+    centre: [f64; 2],
     /// Whether moving the corners by their reach may turn the polygon over, so that `cull` may decide otherwise.
     flimsy: bool,
 }
@@ -44,6 +46,7 @@ impl<'a> Shape<'a> {
         Self {
             polygon,
             pieces: (2..corners.len()).map(piece).collect(),
+            centre: size.map(|s| s / 2.0),
             flimsy: doubled_area(corners).abs() <= area_error(corners),
         }
     }
@@ -72,15 +75,16 @@ impl<'a> Shape<'a> {
         }
         let on_edges = self.coverage(p)?;
         let depth = (self.near(p).map(|piece| piece.depth(p))).reduce(Interval::join)?;
-        let range = Interval {
-            low: 0.0,
-            high: 1.0,
-        };
+        let range = Interval { low: 0.0, high: 1.0 };
         if depth.high < range.low || depth.low > range.high {
             return None;
         }
         // The range is decided on the unrounded depth.
-        let coverage = if range.holds(depth) { on_edges } else { Coverage::Perhaps };
+        let coverage = if range.holds(depth) {
+            on_edges
+        } else {
+            Coverage::Perhaps
+        };
         let depth = (self.near(p).map(|piece| piece.interpolated_depth(p))).reduce(Interval::join)?;
         let depth = depth.widened(DEPTH_ROUNDING / 65535.0);
         Some(Claim { coverage, depth })
@@ -100,7 +104,7 @@ impl<'a> Shape<'a> {
     }
 
     fn coverage(&self, p: [f64; 2]) -> Option<Coverage> {
-        let outer = Ring::around(&self.polygon.outer, p);
+        let outer = Ring::around(&self.polygon.outer, self.centre, p);
         let near_an_edge = !outer.clear;
         if self.polygon.culled {
             return (self.flimsy && near_an_edge).then_some(Coverage::Perhaps);
@@ -109,7 +113,7 @@ impl<'a> Shape<'a> {
             return None;
         }
         let inner = match &self.polygon.inner {
-            Some(corners) => Ring::around(corners, p),
+            Some(corners) => Ring::around(corners, self.centre, p),
             None => outer,
         };
         let certain = inner.inside && inner.clear && !self.flimsy;
@@ -120,7 +124,7 @@ impl<'a> Shape<'a> {
     fn near(&self, p: [f64; 2]) -> impl Iterator<Item = &Piece> {
         let alone = self.pieces.len() == 1;
         self.pieces.iter().filter(move |piece| {
-            let ring = || Ring::around(&piece.corners, p);
+            let ring = || Ring::around(&piece.corners, self.centre, p);
             alone || ring().inside || !ring().clear
         })
     }
@@ -136,14 +140,14 @@ struct Ring {
 }
 
 impl Ring {
-    fn around(corners: &[Corner], p: [f64; 2]) -> Self {
+    fn around(corners: &[Corner], centre: [f64; 2], p: [f64; 2]) -> Self {
         let turn = doubled_area(corners).signum();
         let mut ring = Self {
             inside: corners.len() >= 3,
             clear: true,
         };
         for (i, a) in corners.iter().enumerate() {
-            let edge = Edge::between(a, &corners[(i + 1) % corners.len()], p);
+            let edge = Edge::between(a, &corners[(i + 1) % corners.len()], centre, p);
             ring.inside &= edge.side * turn >= 0.0;
             ring.clear &= edge.clearance > 0.0;
         }
@@ -155,39 +159,51 @@ impl Ring {
 struct Edge {
     /// The sign tells the side.
     side: f64,
-    /// Least distance from a point of the edge less that point's reach, in px.
+    /// Least distance from a point that may come to lie on the moved edge's line, less how far it moves across, in px.
     clearance: f64,
 }
 
 impl Edge {
-    /// A point at s of the edge is moved by at most δ(s), the mean of the ends' reaches, so that a far end with a large
-    /// reach does not count where it is far. The distance to it less δ(s) is convex in s: its minimum is at an end or where
-    /// the slope is 0.
-    fn between(a: &Corner, b: &Corner, p: [f64; 2]) -> Self {
+    /// An end is moved by its shift in any direction, and by ε times its distance from the centre along the line to the
+    /// centre; across the edge that is ε times the centre's distance from the edge's line. So a point at s of the edge moves
+    /// across by at most δ(s), the mean of the ends' shares, so that a far end does not count where it is far; and the ends
+    /// lengthen the edge. The distance to the point at s less δ(s) is convex in s: its minimum is at an end or where the slope
+    /// is 0.
+    fn between(a: &Corner, b: &Corner, centre: [f64; 2], p: [f64; 2]) -> Self {
         let along = [0, 1].map(|i| b.position[i] - a.position[i]);
         let length = along[0].hypot(along[1]);
-        let from = |c: &Corner| [0, 1].map(|i| p[i] - c.position[i]);
-        let (to_a, to_b) = (from(a), from(b));
-        let (far_a, far_b) = (to_a[0].hypot(to_a[1]), to_b[0].hypot(to_b[1]));
-        // Seen from the nearer end: the far one may be 10⁸ px away.
-        let near = if far_a <= far_b { to_a } else { to_b };
-        let side = along[0] * near[1] - along[1] * near[0];
-        let ends = (far_a - a.reach).min(far_b - b.reach);
         if length == 0.0 {
-            let clearance = ends;
-            return Self { side, clearance };
+            let from = [0, 1].map(|i| p[i] - a.position[i]);
+            let clearance = from[0].hypot(from[1]) - a.reach.max(b.reach);
+            return Self { side: 0.0, clearance };
         }
-        let dot = (along[0] * near[0] + along[1] * near[1]) / length;
-        let foot = if far_a <= far_b { dot } else { length + dot };
-        let away = side.abs() / length;
-        let slope = (b.reach - a.reach) / length;
-        let mut clearance = ends;
+        let (side, foot) = seen(a, b, p);
+        let from_centre = seen(a, b, centre).0.abs() / length;
+        let across = |c: &Corner| c.shift + c.weight_error * from_centre;
+        let (start, end) = (a.shift - a.reach, length + b.reach - b.shift);
+        let slope = (across(b) - across(a)) / length;
+        let clearance = |s: f64| (s - foot).hypot(side / length) - (across(a) + slope * s.clamp(0.0, length));
+        let mut least = clearance(start).min(clearance(end));
         if slope.abs() < 1.0 {
-            let s = (foot + away * slope / (1.0 - slope * slope).sqrt()).clamp(0.0, length);
-            clearance = clearance.min((s - foot).hypot(away) - (a.reach + slope * s));
+            let lowest = foot + (side / length).abs() * slope / (1.0 - slope * slope).sqrt();
+            least = least.min(clearance(lowest.clamp(start, end)));
         }
-        Self { side, clearance }
+        Self { side, clearance: least }
     }
+}
+
+/// A point from an edge: its distance from the edge's line times the edge's length, the sign telling the side, and how far
+/// along the edge its foot is. Seen from the nearer end, since the other may be 10⁸ px away.
+fn seen(a: &Corner, b: &Corner, p: [f64; 2]) -> (f64, f64) {
+    let along = [0, 1].map(|i| b.position[i] - a.position[i]);
+    let from = |c: &Corner| [0, 1].map(|i| p[i] - c.position[i]);
+    let (to_a, to_b) = (from(a), from(b));
+    let a_is_nearer = to_a[0].hypot(to_a[1]) <= to_b[0].hypot(to_b[1]);
+    let near = if a_is_nearer { to_a } else { to_b };
+    let length = along[0].hypot(along[1]);
+    let dot = (along[0] * near[0] + along[1] * near[1]) / length;
+    let side = along[0] * near[1] - along[1] * near[0];
+    (side, if a_is_nearer { dot } else { length + dot })
 }
 
 /// How many of the depth range's borders and the guard band's sides cut the polygon: each can add a corner. A corner that

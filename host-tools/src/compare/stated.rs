@@ -37,4 +37,4 @@ pub const DEPTH_PER_COLUMN: f64 = 1.0 / (1u64 << 15) as f64;
 pub const GUARD: f64 = 4096.0;
 
 /// See [`GUARD`].
-pub const WIDE_GUARD: f64 = 65536.0;
+pub const WIDE_GUARD: f64 = 32768.0;

@@ -25,11 +25,7 @@ impl Tracked {
     /// A matrix whose error is known.
     pub fn new(matrix: Matrix, error: f64) -> Self {
         let norm = spectral_bound(&matrix);
-        Self {
-            matrix,
-            error,
-            norm,
-        }
+        Self { matrix, error, norm }
     }
 
     /// The identity: exact on both sides.
@@ -85,19 +81,14 @@ impl Tracked {
     #[must_use]
     pub fn times(&self, right: &Self) -> Self {
         let rounding = ROUNDING * frobenius(&self.matrix) * frobenius(&right.matrix);
-        let error = self.norm * right.error
-            + self.error * right.norm
-            + self.error * right.error
-            + rounding;
+        let error = self.norm * right.error + self.error * right.norm + self.error * right.error + rounding;
         Self::new(self.matrix.times(&right.matrix), error)
     }
 
     /// The vector transformed, and the bound of the length of its difference from the core's; `error` is that of `v`.
     pub fn apply(&self, v: &Vector, error: f64) -> (Vector, f64) {
         let size = size(v);
-        let off = self.norm * error
-            + self.error * (size + error)
-            + ROUNDING * frobenius(&self.matrix) * size;
+        let off = self.norm * error + self.error * (size + error) + ROUNDING * frobenius(&self.matrix) * size;
         (self.matrix.apply(v), off)
     }
 }

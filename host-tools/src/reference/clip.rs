@@ -146,7 +146,10 @@ mod tests {
         let p = [plane([0.3, -0.7, 0.0, 0.01])];
         let one = clip(&[a, b, corner(9.0, 9.0)], &p, Side::Exact);
         let other = clip(&[b, a, corner(-5.0, -7.0)], &p, Side::Exact);
-        assert!(one.iter().any(|c| c.eye[0] != 0.1 && c.eye[0] != 3.3 && other.iter().any(|d| d.eye == c.eye)));
+        assert!(
+            one.iter()
+                .any(|c| c.eye[0] != 0.1 && c.eye[0] != 3.3 && other.iter().any(|d| d.eye == c.eye))
+        );
     }
 
     #[test]

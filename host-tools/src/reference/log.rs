@@ -23,6 +23,9 @@ pub struct Corner {
     pub color: [f64; 3],
     /// δ in px: bound of the distance of the core's corner from this one; infinite where w may be 0.
     pub reach: f64,
+    /// The part of `reach` that is free in direction. The rest, an error of w, moves the corner towards or away from the
+    /// centre of the picture, by `weight_error` of its distance: across a far corner's edges that is next to nothing.
+    pub shift: f64,
     /// Bound of the difference of the core's z/w from this one.
     pub depth_error: f64,
     /// Bound of the relative difference of the core's 1/w from this one.
@@ -100,6 +103,7 @@ impl Primitive<'_> {
             let walk = walk_error(corners, self.size[1]);
             for corner in corners {
                 corner.reach += walk;
+                corner.shift += walk;
             }
         }
         Polygon {
@@ -122,25 +126,22 @@ impl Primitive<'_> {
             .collect()
     }
 
-    /// A vertex off by E in clip space moves x/w by at most E (1 + |x/w|) / (|w| - E).
+    /// A vertex off by E in clip space moves x/w by at most E / (|w| - E) and, its w being off, by |x/w| times as much
+    /// again towards or away from the centre.
     fn divided(&self, [x, y, z, w]: Vector, error: f64, color: [f64; 3]) -> Corner {
         let margin = w.abs() - error;
-        let off = |ratio: f64| {
-            if margin > 0.0 {
-                error * (1.0 + ratio.abs()) / margin
-            } else {
-                f64::INFINITY
-            }
-        };
+        let relative = if margin > 0.0 { error / margin } else { f64::INFINITY };
         let half = self.size.map(|s| s / 2.0);
+        let shift = SNAP + relative * half[0].hypot(half[1]);
         Corner {
             position: [x / w * half[0] + half[0], y / w * half[1] + half[1]],
             z: z / w,
             w,
             color,
-            reach: SNAP + (half[0] * off(x / w)).hypot(half[1] * off(y / w)),
-            depth_error: off(z / w) + f64::EPSILON * (z / w).abs(),
-            weight_error: off(0.0),
+            reach: shift + relative * (x / w * half[0]).hypot(y / w * half[1]),
+            shift,
+            depth_error: relative * (1.0 + (z / w).abs()) + f64::EPSILON * (z / w).abs(),
+            weight_error: relative,
         }
     }
 }
@@ -151,6 +152,7 @@ fn widened(corner: &Corner, a: &Corner, b: &Corner) -> Corner {
     for other in [a, b] {
         let [dx, dy] = [0, 1].map(|i| corner.position[i] - other.position[i]);
         moved.reach = moved.reach.max(other.reach + dx.hypot(dy));
+        moved.shift = moved.shift.max(other.shift + dx.hypot(dy));
         let dz = (corner.z - other.z).abs();
         moved.depth_error = moved.depth_error.max(other.depth_error + dz);
         let dw = (corner.w / other.w - 1.0).abs();
@@ -237,8 +239,8 @@ mod tests {
             let corners = [[0.5, 0.0, 0.0, w], [1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]];
             polygons(&corners.map(|v| eye(v, 1e-9)), &[]).remove(0)
         };
-        // E (1 + 0.5 / w) / w times half the width.
-        let expected = 60.0 * 1e-9 * (1.0 + 500.0) / 1e-3;
+        // E / w times half the diagonal and the distance from the centre, 0.5 / w times half the width.
+        let expected = 1e-9 / 1e-3 * (60f64.hypot(40.0) + 60.0 * 500.0);
         assert!((near(1e-3).outer[0].reach / (SNAP + expected) - 1.0).abs() < 1e-3);
         assert!(!near(1e-3).wild);
         assert!(near(1e-10).wild && near(0.0).wild);

@@ -21,8 +21,7 @@ impl Matrix {
 
     /// `self` times a column vector.
     pub fn apply(&self, v: &Vector) -> Vector {
-        self.0
-            .map(|r| r[0] * v[0] + r[1] * v[1] + r[2] * v[2] + r[3] * v[3])
+        self.0.map(|r| r[0] * v[0] + r[1] * v[1] + r[2] * v[2] + r[3] * v[3])
     }
 
     /// `self` times `right`: what `right` does comes first.
@@ -183,9 +182,18 @@ mod tests {
     fn a_quarter_turn_about_each_axis() {
         let turned = |axis, v: Vector| Matrix::rotation(90.0, axis).apply(&v);
         let near = |a: Vector, b: Vector| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-15);
-        assert!(near(turned([2.0, 0.0, 0.0], [0.0, 1.0, 0.0, 1.0]), [0.0, 0.0, 1.0, 1.0]));
-        assert!(near(turned([0.0, 3.0, 0.0], [0.0, 0.0, 1.0, 1.0]), [1.0, 0.0, 0.0, 1.0]));
-        assert!(near(turned([0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 1.0]), [0.0, 1.0, 0.0, 1.0]));
+        assert!(near(
+            turned([2.0, 0.0, 0.0], [0.0, 1.0, 0.0, 1.0]),
+            [0.0, 0.0, 1.0, 1.0]
+        ));
+        assert!(near(
+            turned([0.0, 3.0, 0.0], [0.0, 0.0, 1.0, 1.0]),
+            [1.0, 0.0, 0.0, 1.0]
+        ));
+        assert!(near(
+            turned([0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 1.0]),
+            [0.0, 1.0, 0.0, 1.0]
+        ));
     }
 
     #[test]
@@ -234,9 +242,17 @@ mod tests {
         let (m, determinant) = Matrix::scaling([2.0, 4.0, 5.0]).inverse_transpose().unwrap();
         assert_eq!(determinant, 40.0);
         near(&m, Matrix::scaling([0.5, 0.25, 0.2]).linear_part().0);
-        let shear = Matrix([[1.0, 2.0, 0.0, 9.0], [0.0, 1.0, 3.0, 9.0], [0.0, 0.0, 1.0, 9.0], [0.0; 4]]);
+        let shear = Matrix([
+            [1.0, 2.0, 0.0, 9.0],
+            [0.0, 1.0, 3.0, 9.0],
+            [0.0, 0.0, 1.0, 9.0],
+            [0.0; 4],
+        ]);
         let (m, _) = shear.inverse_transpose().unwrap();
-        near(&m.transposed().times(&shear.linear_part()), Matrix::IDENTITY.linear_part().0);
+        near(
+            &m.transposed().times(&shear.linear_part()),
+            Matrix::IDENTITY.linear_part().0,
+        );
         assert!(Matrix::scaling([1.0, 0.0, 1.0]).inverse_transpose().is_none());
     }
 }

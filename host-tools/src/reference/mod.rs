@@ -43,9 +43,7 @@ pub struct Rendered {
 impl Rendered {
     /// The picture in bytes, RGBA: floor(255 v), clamped to 0…255.
     pub fn bytes(&self) -> Vec<[u8; 4]> {
-        (self.pixels.iter())
-            .map(|pixel| pixel.color.map(byte))
-            .collect()
+        (self.pixels.iter()).map(|pixel| pixel.color.map(byte)).collect()
     }
 }
 
@@ -222,12 +220,7 @@ impl BackEnd for Reference {
         self.cull = true;
     }
 
-    fn triangle(
-        &mut self,
-        primitive: u32,
-        corners: [Vertex; 3],
-        surface: Surface,
-    ) -> Result<(), String> {
+    fn triangle(&mut self, primitive: u32, corners: [Vertex; 3], surface: Surface) -> Result<(), String> {
         let triangle = corners.map(|vertex| match surface {
             Surface::Flat(color) => self.eye_corner(&vertex, color),
             Surface::Gouraud => self.eye_corner(&vertex, vertex.color),

@@ -18,12 +18,7 @@ pub const Z: usize = 2;
 pub const Q: usize = 3;
 
 /// Visits every covered sample of the picture, row by row: column, row, and the interpolated point.
-pub fn walk(
-    corners: &[Point; 3],
-    width: u32,
-    height: u32,
-    mut visit: impl FnMut(usize, usize, &Point),
-) {
+pub fn walk(corners: &[Point; 3], width: u32, height: u32, mut visit: impl FnMut(usize, usize, &Point)) {
     let mut sorted = *corners;
     sorted.sort_by(|a, b| a[Y].total_cmp(&b[Y]));
     let [top, middle, bottom] = sorted;
@@ -59,12 +54,7 @@ impl Walk {
             step[i] = (to[i] - from[i]) / span;
             point[i] = from[i] + step[i] * (at - from[axis]);
         }
-        Self {
-            point,
-            step,
-            at,
-            end,
-        }
+        Self { point, step, at, end }
     }
 }
 
@@ -127,13 +117,22 @@ mod tests {
             covered([[-1e12, -1e12], [3e12, -1e12], [-1e12, 3e12]]),
             "##### ##### ##### ##### #####"
         );
-        assert_eq!(covered([[1e12, 0.0], [2e12, 0.0], [1e12, 9e11]]), "..... ..... ..... ..... .....");
+        assert_eq!(
+            covered([[1e12, 0.0], [2e12, 0.0], [1e12, 9e11]]),
+            "..... ..... ..... ..... ....."
+        );
     }
 
     #[test]
     fn no_area_covers_nothing() {
-        assert_eq!(covered([[0.0, 0.0], [2.0, 2.0], [4.0, 4.0]]), "..... ..... ..... ..... .....");
-        assert_eq!(covered([[0.0, 2.0], [2.0, 2.0], [4.0, 2.0]]), "..... ..... ..... ..... .....");
+        assert_eq!(
+            covered([[0.0, 0.0], [2.0, 2.0], [4.0, 4.0]]),
+            "..... ..... ..... ..... ....."
+        );
+        assert_eq!(
+            covered([[0.0, 2.0], [2.0, 2.0], [4.0, 2.0]]),
+            "..... ..... ..... ..... ....."
+        );
     }
 
     #[test]

@@ -13,7 +13,9 @@ pub fn run_all() -> Result<(), Failure> {
         let toolchain = Toolchain::find(target)?;
         for features in ["--all-features", "--no-default-features"] {
             let mut cargo = toolchain.cargo_build(&target_dir());
-            cargo.args(["--package", "fixel", "--lib", features]).current_dir(root());
+            cargo
+                .args(["--package", "fixel", "--lib", features])
+                .current_dir(root());
             run(&mut cargo, &format!("building the core for {target} with {features}"))?;
             println!("{target} {features}: builds with rustc {}", toolchain.version());
         }

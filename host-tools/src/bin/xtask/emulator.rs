@@ -26,7 +26,10 @@ pub fn run(board: &Board, image: &Path) -> Result<String, Failure> {
     if status.success() {
         Ok(text)
     } else {
-        Err(Failure::Off(format!("the image on {} ended with {status}:\n{text}", board.machine)))
+        Err(Failure::Off(format!(
+            "the image on {} ended with {status}:\n{text}",
+            board.machine
+        )))
     }
 }
 
@@ -35,7 +38,13 @@ fn wait(board: &Board, image: &Path, output: &File) -> Result<ExitStatus, Failur
     let mut child = Command::new(board.emulator)
         .args(["-M", board.machine, "-nographic", "-monitor", "none", "-serial", "null"])
         // One instruction is one nanosecond of the emulated clock: what the counts rest on.
-        .args(["-semihosting-config", "enable=on,target=native", "-icount", "shift=0", "-kernel"])
+        .args([
+            "-semihosting-config",
+            "enable=on,target=native",
+            "-icount",
+            "shift=0",
+            "-kernel",
+        ])
         .arg(image)
         .stdin(Stdio::null())
         .stdout(stdout)
@@ -50,8 +59,14 @@ fn wait(board: &Board, image: &Path, output: &File) -> Result<ExitStatus, Failur
             return Ok(status);
         }
         if Instant::now() > end {
-            child.kill().and_then(|()| child.wait()).map_err(|e| Failure::trouble(board.emulator, e))?;
-            return Err(Failure::Off(format!("the image on {} did not end within {TIMEOUT:?}", board.machine)));
+            child
+                .kill()
+                .and_then(|()| child.wait())
+                .map_err(|e| Failure::trouble(board.emulator, e))?;
+            return Err(Failure::Off(format!(
+                "the image on {} did not end within {TIMEOUT:?}",
+                board.machine
+            )));
         }
         sleep(Duration::from_millis(20));
     }

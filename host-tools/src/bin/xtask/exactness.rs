@@ -47,9 +47,8 @@ fn wrong_pixels(triangles: &[Triangle]) -> u64 {
     let columns = usize::from(WIDTH);
     let wrong = |triangle: &Triangle| {
         let drawn = hits(&[*triangle]);
-        let differs = |&(at, &hits): &(usize, &u8)| {
-            covers(triangle, (at % columns) as i64, (at / columns) as i64) != (hits == 1)
-        };
+        let differs =
+            |&(at, &hits): &(usize, &u8)| covers(triangle, (at % columns) as i64, (at / columns) as i64) != (hits == 1);
         drawn.iter().enumerate().filter(differs).count() as u64
     };
     triangles.iter().map(wrong).sum()
@@ -92,4 +91,24 @@ fn covers(triangle: &Triangle, x: i64, y: i64) -> bool {
             let s = side(from, to, (x * 256, y * 256));
             s > 0 || s == 0 && (to.1 < from.1 || to.1 == from.1 && to.0 > from.0)
         })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_too_many_or_too_few_is_seen() {
+        let corner = |x: i32, y: i32| Vertex {
+            x: x << 8,
+            y: y << 8,
+            depth: 0,
+            color: [0; 3],
+        };
+        let triangle = [corner(0, 0), corner(0, 4), corner(4, 0)];
+        let covered = |y| (0..8).filter(|&x| covers(&triangle, x, y)).count();
+        assert_eq!([0, 1, 2, 3, 4].map(covered), [4, 3, 2, 1, 0]);
+        assert_eq!(wrong_pixels(&[triangle]), 0);
+        assert_eq!(hits(&[triangle, triangle]).iter().filter(|&&h| h == 2).count(), 10);
+    }
 }

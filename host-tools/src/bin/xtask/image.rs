@@ -16,7 +16,9 @@ pub fn root() -> &'static Path {
 
 /// Where bare-metal builds go: apart from the host's, which have another compiler's library.
 pub fn target_dir() -> PathBuf {
-    env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from).join("bare-metal")
+    env::var_os("CARGO_TARGET_DIR")
+        .map_or_else(|| root().join("target"), PathBuf::from)
+        .join("bare-metal")
 }
 
 /// Builds the image `name` for `board` with `workloads` in it; the file to run.
@@ -34,7 +36,10 @@ pub fn build(board: &Board, toolchain: &Toolchain, name: &str, workloads: &[u8])
 /// Runs a build to its end.
 pub fn run(command: &mut Command, what: &str) -> Result<(), Failure> {
     let status = command.status().map_err(|e| Failure::trouble(what, e))?;
-    status.success().then_some(()).ok_or_else(|| Failure::Off(format!("{what} failed")))
+    status
+        .success()
+        .then_some(())
+        .ok_or_else(|| Failure::Off(format!("{what} failed")))
 }
 
 /// Leaves a file that is right untouched, so that cargo rebuilds nothing.

@@ -75,7 +75,9 @@ impl Limits {
                 continue;
             };
             if limit["pixels"] != outcome.units {
-                verdict.notes.push(format!("{name}: other geometry than the limit's: not compared"));
+                verdict
+                    .notes
+                    .push(format!("{name}: other geometry than the limit's: not compared"));
                 continue;
             }
             let ratio = f64::from(outcome.instructions) / instructions;
@@ -91,5 +93,43 @@ impl Limits {
             }
         }
         verdict
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::board::M4;
+
+    fn outcome(instructions: u32, units: u32) -> [Outcome; 1] {
+        [Outcome {
+            name: "W1".into(),
+            instructions,
+            units,
+            color: 0,
+            depth: 0,
+        }]
+    }
+
+    fn limits() -> Limits {
+        let mut limits = Limits { boards: Map::new() };
+        limits.update(&M4, "1.0", &outcome(10_000, 50));
+        limits
+    }
+
+    #[test]
+    fn a_hundredth_more_passes_and_more_fails() {
+        let over = |count| limits().compare(&M4, "1.0", &outcome(count, 50)).over.len();
+        assert_eq!([over(9_000), over(10_100), over(10_101)], [0, 0, 1]);
+    }
+
+    #[test]
+    fn another_compiler_or_geometry_is_noted() {
+        for verdict in [
+            limits().compare(&M4, "1.1", &outcome(20_000, 50)),
+            limits().compare(&M4, "1.0", &outcome(20_000, 51)),
+        ] {
+            assert!(verdict.over.is_empty() && !verdict.notes.is_empty());
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! `cargo xtask`: the developers' commands.
 
 mod board;
+mod callgrind;
 mod checks;
 mod cross;
 mod emulator;
@@ -47,6 +48,10 @@ enum Command {
     },
     /// Build the core for the bare-metal targets, with all features and with none.
     Cross,
+    /// Geometry far beyond the screen against the same picture from triangles that fit it, counted by valgrind.
+    Callgrind,
+    #[command(hide = true)]
+    DrawCase { case: String },
 }
 
 fn main() -> ExitCode {
@@ -54,6 +59,8 @@ fn main() -> ExitCode {
         Command::Firmware { update_limits } => checks::run(update_limits),
         Command::Measure { workloads, json } => measure::run(workloads, json),
         Command::Cross => cross::run_all(),
+        Command::Callgrind => callgrind::run(),
+        Command::DrawCase { case } => callgrind::draw_case(&case),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -81,7 +81,9 @@ fn rounded(value: f64) -> f64 {
 
 fn as_json(outcomes: &[Outcome], parts: &[Parts], exactness: &Exactness) -> Value {
     let object = |pairs: Vec<(&str, Value)>| pairs.into_iter().map(|(k, v)| (k.to_owned(), v)).collect::<Map<_, _>>();
-    let standard = STANDARD.iter().filter_map(|name| Some((*name, json!(rounded(find(outcomes, name)?.per_unit())))));
+    let standard = STANDARD
+        .iter()
+        .filter_map(|name| Some((*name, json!(rounded(find(outcomes, name)?.per_unit())))));
     let part = |p: &Parts| {
         let figures = json!({"pixel": rounded(p.pixel), "row": rounded(p.row), "triangle": rounded(p.triangle)});
         (p.kind, figures)
@@ -105,7 +107,10 @@ fn print_tables(compiler: &str, outcomes: &[Outcome], parts: &[Parts], exactness
         } = outcome;
         println!("{name:<16}{instructions:>12}{units:>10}{:>10.2}", outcome.per_unit());
     }
-    println!("\n{:<16}{:>12}{:>10}{:>10}", "all pass", "a pixel", "a row", "a triangle");
+    println!(
+        "\n{:<16}{:>12}{:>10}{:>10}",
+        "instructions per", "pixel", "row", "triangle"
+    );
     for Parts {
         kind,
         pixel,

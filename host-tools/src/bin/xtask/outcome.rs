@@ -67,3 +67,28 @@ impl Outcome {
 pub fn find<'a>(outcomes: &'a [Outcome], name: &str) -> Option<&'a Outcome> {
     outcomes.iter().find(|outcome| outcome.name == name)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_read_as_they_are_written() {
+        let line = Line {
+            name: "W2",
+            instructions: 1_000,
+            units: 40,
+            color: 0xdead_beef,
+            depth: 1,
+        };
+        let read = Outcome::parse(&line.to_string());
+        assert_eq!(read, Some(Outcome::from(&line)));
+        assert_eq!(read.map(|o| o.per_unit()), Some(25.0));
+    }
+
+    #[test]
+    fn anything_else_that_an_image_prints_is_a_fault() {
+        assert!(Outcome::parse_all("W1 1 2 3 4 5").is_err());
+        assert!(Outcome::parse_all("panicked").is_err());
+    }
+}

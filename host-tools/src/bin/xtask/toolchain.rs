@@ -23,7 +23,10 @@ impl Toolchain {
     /// The first that fits: the compiler in use, then the distribution's; ready-made library first, then its sources.
     pub fn find(target: &'static str) -> Result<Self, Failure> {
         let in_use = env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
-        let compilers: Vec<_> = [in_use.as_str(), DISTRIBUTION].iter().filter_map(|p| Compiler::at(p)).collect();
+        let compilers: Vec<_> = [in_use.as_str(), DISTRIBUTION]
+            .iter()
+            .filter_map(|p| Compiler::at(p))
+            .collect();
         let ready = compilers.iter().find(|c| c.has_library(target)).map(|c| (c, false));
         let sources = || compilers.iter().find(|c| c.has_sources()).map(|c| (c, true));
         let Some((compiler, build_std)) = ready.or_else(sources) else {
@@ -80,7 +83,9 @@ fn linker(compiler: &Compiler, others: &[Compiler]) -> Result<Option<PathBuf>, F
     let in_path = || env::split_paths(&path).flat_map(|dir| ["rust-lld", "ld.lld"].map(|name| dir.join(name)));
     let mut candidates = others.iter().map(Compiler::linker).chain(in_path());
     candidates.find(|linker| linker.is_file()).map(Some).ok_or_else(|| {
-        Failure::Usage("no bare-metal linker: neither rust-lld of a rustup toolchain nor ld.lld (apt-get install lld)".into())
+        Failure::Usage(
+            "no bare-metal linker: neither rust-lld of a rustup toolchain nor ld.lld (apt-get install lld)".into(),
+        )
     })
 }
 
@@ -97,7 +102,12 @@ impl Compiler {
     /// `None` where `program` does not run.
     fn at(program: &str) -> Option<Self> {
         let about = ask(program, &["--version", "--verbose"])?;
-        let field = |name| about.lines().find_map(|line| line.strip_prefix(name)).map(str::to_owned);
+        let field = |name| {
+            about
+                .lines()
+                .find_map(|line| line.strip_prefix(name))
+                .map(str::to_owned)
+        };
         Some(Compiler {
             program: program.into(),
             version: field("release: ")?,

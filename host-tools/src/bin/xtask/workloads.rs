@@ -110,7 +110,9 @@ fn vertex(value: &Value) -> Option<Vertex> {
     Some(Vertex {
         x: subpixels(x)?,
         y: subpixels(y)?,
-        depth: (0.0..=1.0).contains(&z).then(|| (z * 65535.0 * 32768.0).round() as u32)?,
+        depth: (0.0..=1.0)
+            .contains(&z)
+            .then(|| (z * 65535.0 * 32768.0).round() as u32)?,
         color: [channel(red)?, channel(green)?, channel(blue)?],
     })
 }

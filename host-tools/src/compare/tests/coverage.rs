@@ -18,7 +18,13 @@ fn a_sample_near_an_edge_may_be_in_or_out() {
 #[test]
 fn distance_is_across_the_edge() {
     // An edge at 45 degrees: √2 further along the row.
-    let slanted = |x: f64| [at(x - 40.0, -24.0, 0.5), at(x + 99.0, 16.0, 0.5), at(x + 40.0, 56.0, 0.5)];
+    let slanted = |x: f64| {
+        [
+            at(x - 40.0, -24.0, 0.5),
+            at(x + 99.0, 16.0, 0.5),
+            at(x + 40.0, 56.0, 0.5),
+        ]
+    };
     for (off, expected) in CASES {
         let x = 10.0 - off * SNAP * std::f64::consts::SQRT_2;
         assert_eq!(class_if_missing(&rendered(&[(slanted(x), RED)])), expected, "{off}");
@@ -28,7 +34,10 @@ fn distance_is_across_the_edge() {
 #[test]
 fn beyond_a_corner_the_distance_is_to_the_corner() {
     for (off, expected) in CASES {
-        let tip = rendered(&[([at(10.0 - off * SNAP, 16.0, 0.5), at(0.0, 15.9, 0.5), at(0.0, 16.1, 0.5)], RED)]);
+        let tip = rendered(&[(
+            [at(10.0 - off * SNAP, 16.0, 0.5), at(0.0, 15.9, 0.5), at(0.0, 16.1, 0.5)],
+            RED,
+        )]);
         assert_eq!(class(&tip, RED_BYTES, 1), expected, "{off}");
     }
 }
@@ -65,14 +74,34 @@ fn the_border_of_the_depth_range_is_an_edge() {
     // Depth rises by 1/50 per px and passes `border` at x.
     let ramp = |x: f64, border: f64| {
         let z = |column: f64| border + (column - x) / 50.0;
-        [at(-9.0, -40.0, z(-9.0)), at(90.0, 16.0, z(90.0)), at(-9.0, 72.0, z(-9.0))]
+        [
+            at(-9.0, -40.0, z(-9.0)),
+            at(90.0, 16.0, z(90.0)),
+            at(-9.0, 72.0, z(-9.0)),
+        ]
     };
     for (off, expected) in CASES {
         let d = off * SNAP;
-        assert_eq!(class(&rendered(&[(ramp(10.0 + d, 0.0), RED)]), RED_BYTES, 1), expected, "{off} below 0");
-        assert_eq!(class_if_missing(&rendered(&[(ramp(10.0 - d, 0.0), RED)])), expected, "{off} above 0");
-        assert_eq!(class_if_missing(&rendered(&[(ramp(10.0 + d, 1.0), RED)])), expected, "{off} below 1");
-        assert_eq!(class(&rendered(&[(ramp(10.0 - d, 1.0), RED)]), RED_BYTES, 1), expected, "{off} above 1");
+        assert_eq!(
+            class(&rendered(&[(ramp(10.0 + d, 0.0), RED)]), RED_BYTES, 1),
+            expected,
+            "{off} below 0"
+        );
+        assert_eq!(
+            class_if_missing(&rendered(&[(ramp(10.0 - d, 0.0), RED)])),
+            expected,
+            "{off} above 0"
+        );
+        assert_eq!(
+            class_if_missing(&rendered(&[(ramp(10.0 + d, 1.0), RED)])),
+            expected,
+            "{off} below 1"
+        );
+        assert_eq!(
+            class(&rendered(&[(ramp(10.0 - d, 1.0), RED)]), RED_BYTES, 1),
+            expected,
+            "{off} above 1"
+        );
     }
 }
 
@@ -83,7 +112,11 @@ fn a_cut_by_a_plane_is_an_edge() {
         prepared(|r| r.clip_plane(plane).unwrap(), &[(right_of(-20.0, 0.5), RED)])
     };
     for (off, expected) in CASES {
-        assert_eq!(class(&cut_at(10.0 + off * SNAP), RED_BYTES, 1), expected, "{off} outside");
+        assert_eq!(
+            class(&cut_at(10.0 + off * SNAP), RED_BYTES, 1),
+            expected,
+            "{off} outside"
+        );
         assert_eq!(class_if_missing(&cut_at(10.0 - off * SNAP)), expected, "{off} inside");
     }
 }
@@ -93,14 +126,18 @@ fn a_plane_through_the_triangle_decides_only_if_it_is_clear_of_it() {
     let turned = |distance: f64| {
         let prepare = |r: &mut Reference| {
             r.rotate(20.0, [1.0, 0.0, 0.0]).unwrap();
-            r.clip_plane([0.0, 0.0, 1.0, -distance]).unwrap();
+            r.clip_plane([0.0, 0.0, 1.0, -0.5 - distance]).unwrap();
         };
-        prepared(prepare, &[(right_of(-20.0, 0.0), RED)])
+        prepared(prepare, &[(right_of(-20.0, 0.5), RED)])
     };
     // The plane is the triangle's own, up to rounding; then a hair before and behind it.
     let own = turned(0.0);
     let drawn = own.pixels[16 * SIZE as usize + 10].primitive == 1;
-    let class_of_the_other = if drawn { class_if_missing(&own) } else { class(&own, RED_BYTES, 1) };
+    let class_of_the_other = if drawn {
+        class_if_missing(&own)
+    } else {
+        class(&own, RED_BYTES, 1)
+    };
     assert_eq!(class_of_the_other, Class::Edge);
     assert_eq!(class_if_missing(&turned(-1e-9)), Class::Unexplained);
     assert_eq!(class(&turned(1e-9), RED_BYTES, 1), Class::Unexplained);
@@ -110,7 +147,11 @@ fn a_plane_through_the_triangle_decides_only_if_it_is_clear_of_it() {
 fn culling_is_uncertain_for_slivers_only() {
     // Clockwise, so culled, and as high as some δ.
     let sliver = |height: f64| {
-        let corners = [at(0.0, 16.0, 0.5), at(30.0, 16.0, 0.5), at(10.0, 16.0 + height * SNAP, 0.5)];
+        let corners = [
+            at(0.0, 16.0, 0.5),
+            at(30.0, 16.0, 0.5),
+            at(10.0, 16.0 + height * SNAP, 0.5),
+        ];
         prepared(|r| r.cull(), &[(corners, RED)])
     };
     assert_eq!(class(&sliver(1.0), RED_BYTES, 1), Class::Edge);

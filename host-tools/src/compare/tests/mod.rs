@@ -27,11 +27,17 @@ fn at(x: f64, y: f64, z: f64) -> Vertex {
 fn projective(x: f64, y: f64, z: f64, w: f64) -> Vertex {
     let half = f64::from(SIZE) / 2.0;
     let position = [(x / half - 1.0) * w, (y / half - 1.0) * w, z * w, w];
-    Vertex { position, color: [1.0; 3] }
+    Vertex {
+        position,
+        color: [1.0; 3],
+    }
 }
 
 fn colored(vertex: Vertex, level: f64) -> Vertex {
-    Vertex { color: [level / 255.0; 3], ..vertex }
+    Vertex {
+        color: [level / 255.0; 3],
+        ..vertex
+    }
 }
 
 /// A triangle that covers every pixel right of the vertical line at x, at depth z.
@@ -62,7 +68,11 @@ fn as_fixed(rendered: &Rendered) -> FixedPicture {
         width: rendered.width,
         height: rendered.height,
         pixels: pixels.map(|(rgba, primitive)| Pixel { rgba, primitive }).collect(),
-        depth: rendered.pixels.iter().map(|pixel| (65535.0 * pixel.depth).round() as u16).collect(),
+        depth: rendered
+            .pixels
+            .iter()
+            .map(|pixel| (65535.0 * pixel.depth).round() as u16)
+            .collect(),
     }
 }
 
@@ -72,7 +82,10 @@ fn class(reference: &Rendered, rgba: [u8; 4], primitive: u32) -> Class {
     let index = 16 * SIZE as usize + 10;
     fixed.pixels[index] = Pixel { rgba, primitive };
     let comparison = compare(&fixed, reference);
-    assert_eq!(comparison.unexplained, u64::from(comparison.classes[index] == Class::Unexplained));
+    assert_eq!(
+        comparison.unexplained,
+        u64::from(comparison.classes[index] == Class::Unexplained)
+    );
     comparison.classes[index]
 }
 

@@ -16,11 +16,16 @@ fn a_flat_colour_may_be_off_by_its_rounding_only() {
     assert_eq!(class(&flat(127.001), grey(125), 1), Class::Unexplained);
 }
 
-/// A Gouraud triangle whose levels rise by 100 per px, where δ is 0.276 level, with `level` at the pixel.
-fn steep(level: f64) -> Rendered {
-    let corners = right_of(-20.0, 0.5);
+/// A Gouraud triangle whose levels rise by 100 per px, where δ is 0.276 level, with `level` at the pixel. Its right corner
+/// is at depth `far`.
+fn steep(level: f64, far: f64) -> Rendered {
+    let mut corners = right_of(-20.0, 0.5);
+    corners[1].position[2] = far;
     let x = |v: &Vertex| (v.position[0] + 1.0) * 16.0;
-    rendered(&[(corners.map(|v| colored(v, level + 100.0 * (x(&v) - 10.0))), Surface::Gouraud)])
+    rendered(&[(
+        corners.map(|v| colored(v, level + 100.0 * (x(&v) - 10.0))),
+        Surface::Gouraud,
+    )])
 }
 
 #[test]
@@ -28,38 +33,70 @@ fn a_colour_may_be_off_by_gradient_times_delta() {
     let moved = 100.0 * SNAP;
     // Colours up to 30 times full may have 30 times the rounding: 0.16 level.
     for (off, expected) in [(0.5, Class::Colour), (0.99, Class::Colour), (1.7, Class::Unexplained)] {
-        assert_eq!(class(&steep(101.0 - off * moved), grey(101), 1), expected, "{off} below");
-        assert_eq!(class(&steep(100.0 + off * moved), grey(99), 1), expected, "{off} above");
+        assert_eq!(
+            class(&steep(101.0 - off * moved, 0.5), grey(101), 1),
+            expected,
+            "{off} below"
+        );
+        assert_eq!(
+            class(&steep(100.0 + off * moved, 0.5), grey(99), 1),
+            expected,
+            "{off} above"
+        );
     }
-    assert_eq!(class(&steep(100.1), grey(98), 1), Class::Unexplained);
+    assert_eq!(class(&steep(100.1, 0.5), grey(98), 1), Class::Unexplained);
+}
+
+#[test]
+fn a_clipped_polygon_continues_the_plane_of_a_part_of_it() {
+    // The depth range cuts off the right corner; of the four that are left, three carry the plane: up to 3 δ.
+    for (off, expected) in [(2.9, Class::Colour), (3.7, Class::Unexplained)] {
+        assert_eq!(
+            class(&steep(101.0 - off * 100.0 * SNAP, 1.2), grey(101), 1),
+            expected,
+            "{off}"
+        );
+    }
 }
 
 #[test]
 fn a_colour_never_leaves_the_range_of_the_corners() {
-    // A gradient of 200 levels per px, and the largest value is 100.3 a hair beyond the pixel.
+    // A gradient of 200 levels per px, 0.55 level in δ, and the largest value is 100.8, a hair beyond the pixel.
     let top = |x: f64| {
-        let low = 100.3 - 200.0 * 50.0;
-        let corners = [(x, -40.0, 100.3), (x - 50.0, 16.0, low), (x, 72.0, 100.3)];
-        let corners = corners.map(|(x, y, level)| colored(at(x, y, 0.5), level));
-        rendered(&[(corners, Surface::Gouraud)])
+        let low = 100.8 - 200.0 * 50.0;
+        let corners = [(x, -40.0, 100.8), (x - 50.0, 16.0, low), (x, 72.0, 100.8)];
+        rendered(&[(
+            corners.map(|(x, y, level)| colored(at(x, y, 0.5), level)),
+            Surface::Gouraud,
+        )])
     };
-    let near = top(10.0 + 0.1 * SNAP);
-    assert_eq!(class(&near, grey(99), 1), Class::Unexplained);
-    assert_eq!(class(&near, grey(101), 1), Class::Unexplained);
+    assert_eq!(class(&top(10.0 + 0.1 * SNAP), grey(101), 1), Class::Unexplained);
+    // 99.7 further inside.
+    assert_eq!(class(&top(10.0 + 2.0 * SNAP), grey(100), 1), Class::Colour);
 }
 
 #[test]
 fn perspective_moves_along_its_own_gradient() {
     // 1/w runs from 1 to 1/4 over 64 px, and so does everything that is seen: the gradient grows where w does.
     let wall = |level: f64| {
-        let corners = [projective(-10.0, -90.0, 0.5, 1.0), projective(54.0, 16.0, 0.5, 4.0), projective(-10.0, 122.0, 0.5, 1.0)];
+        let corners = [
+            projective(-10.0, -90.0, 0.5, 1.0),
+            projective(54.0, 16.0, 0.5, 4.0),
+            projective(-10.0, 122.0, 0.5, 1.0),
+        ];
         let q = |x: f64| 1.0 - 0.75 * (x + 10.0) / 64.0;
         // A colour of a + b w has the gradient b q'/q² = 2000 at the pixel.
         let here = q(10.0);
         let b = 2000.0 * here * here / (0.75 / 64.0);
         let a = level - b / here;
         let [p, q, r] = corners;
-        (rendered(&[([colored(p, a + b), colored(q, a + 4.0 * b), colored(r, a + b)], Surface::Gouraud)]), a + 4.0 * b)
+        (
+            rendered(&[(
+                [colored(p, a + b), colored(q, a + 4.0 * b), colored(r, a + b)],
+                Surface::Gouraud,
+            )]),
+            a + 4.0 * b,
+        )
     };
     // The rounding of colours this bright comes on top.
     let (_, brightest) = wall(100.0);
@@ -89,7 +126,11 @@ fn depths_may_differ_by_gradient_times_delta() {
     // The red one's depth falls by 1/60 per px, 4 steps in δ; the green one is that much nearer at the pixel.
     let two = |off: f64| {
         let z = |x: f64| 0.5 - (x - 10.0) / 60.0;
-        let tilted = [at(-9.0, -40.0, z(-9.0)), at(30.0, 16.0, z(30.0)), at(-9.0, 72.0, z(-9.0))];
+        let tilted = [
+            at(-9.0, -40.0, z(-9.0)),
+            at(30.0, 16.0, z(30.0)),
+            at(-9.0, 72.0, z(-9.0)),
+        ];
         let nearer = 0.5 - 1.0 / 65535.0 - off * SNAP / 60.0;
         rendered(&[(tilted, RED), (right_of(-20.0, nearer), GREEN)])
     };
@@ -113,7 +154,10 @@ fn a_winner_behind_a_certain_third_is_not_possible() {
 /// A triangle of one grey whose 1/w is 0 on the column x, w having both signs.
 fn pole(x: f64) -> Rendered {
     let corner = |column: f64, y: f64| colored(projective(column, y, 0.5, 8.0 / (column - x)), 100.0);
-    rendered(&[([corner(-20.0, -40.0), corner(60.0, 16.0), corner(-20.0, 72.0)], Surface::Gouraud)])
+    rendered(&[(
+        [corner(-20.0, -40.0), corner(60.0, 16.0), corner(-20.0, 72.0)],
+        Surface::Gouraud,
+    )])
 }
 
 #[test]

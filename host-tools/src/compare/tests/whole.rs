@@ -18,7 +18,10 @@ fn the_same_picture_is_equal_everywhere() {
     let reference = rendered(&scene());
     let comparison = compare(&as_fixed(&reference), &reference);
     assert!(comparison.classes.iter().all(|class| *class == Class::Equal));
-    assert_eq!((comparison.psnr, comparison.rmse, comparison.max_channel_error), (None, 0.0, 0));
+    assert_eq!(
+        (comparison.psnr, comparison.rmse, comparison.max_channel_error),
+        (None, 0.0, 0)
+    );
     assert_eq!((comparison.unexplained, comparison.coverage_differs), (0, 0));
     let drawn = reference.pixels.iter().filter(|pixel| pixel.primitive != 0).count();
     assert_eq!(comparison.pixels_drawn, drawn as u64);
@@ -35,7 +38,14 @@ fn the_figures_of_one_missing_pixel() {
     let rmse = (2.0 * 255.0f64.powi(2) / f64::from(4 * SIZE * SIZE)).sqrt();
     assert!((comparison.rmse - rmse).abs() < 1e-12);
     assert!((comparison.psnr.unwrap() - 20.0 * (255.0 / rmse).log10()).abs() < 1e-12);
-    assert_eq!((comparison.coverage_differs, comparison.unexplained, comparison.max_channel_error), (1, 1, 255));
+    assert_eq!(
+        (
+            comparison.coverage_differs,
+            comparison.unexplained,
+            comparison.max_channel_error
+        ),
+        (1, 1, 255)
+    );
 }
 
 #[test]
@@ -52,7 +62,10 @@ fn corners_moved_by_less_than_delta_are_explained_and_by_more_are_not() {
     };
     let near = moved(0.95 * SNAP);
     assert_eq!(near.unexplained, 0, "{:?}", near.explained);
-    assert!(near.explained.colour > 0, "a bound that nothing comes near to is not tested");
+    assert!(
+        near.explained.colour > 0,
+        "a bound that nothing comes near to is not tested"
+    );
     assert!(moved(30.0 * SNAP).unexplained > 0);
 }
 
@@ -62,8 +75,16 @@ fn a_picture_shifted_by_a_pixel_is_unexplained() {
     let mut fixed = as_fixed(&reference);
     fixed.pixels.rotate_right(1);
     let comparison = compare(&fixed, &reference);
-    let differing = comparison.classes.iter().filter(|class| **class != Class::Equal).count() as u64;
-    assert!(comparison.unexplained * 10 > differing * 9, "{} of {differing}", comparison.unexplained);
+    let differing = comparison
+        .classes
+        .iter()
+        .filter(|class| **class != Class::Equal)
+        .count() as u64;
+    assert!(
+        comparison.unexplained * 10 > differing * 9,
+        "{} of {differing}",
+        comparison.unexplained
+    );
 }
 
 #[test]
