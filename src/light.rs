@@ -5,16 +5,17 @@
 //!
 //! c · light · o + light · max(0, n·h)^a, h = unit(l + unit(−p)),
 //!
-//! the second term only for a [`Shiny`] surface. A sun's l is fixed, a bulb's is unit(b − p), and unit(0) is 0. A light with
-//! c ≤ 0 adds nothing at all. There is no ambient light, no fading with distance and no shadow.
+//! the second term only for a [`Shiny`] surface. A sun's l is fixed, a bulb's is unit(b − p), and unit(0) is 0. A
+//! light with c ≤ 0 adds nothing at all. There is no ambient light, no fading with distance and no shadow.
 //!
 //! **Colours** are in units of 2^-16 of full, all of `i32`: ±2^15 of full. Nothing is clamped but the result, to that range:
-//! the sums are kept in 64 bits. Addition of integers commutes, so the order of lights does not matter to a bit. For still
-//! brighter lights give all light colours in a larger unit; the result is then in that unit too.
+//! the sums are kept in 64 bits. Addition of integers commutes, so the order of lights does not matter to a bit. For
+//! still brighter lights give all light colours in a larger unit; the result is then in that unit too.
 //!
 //! **Error** against exact arithmetic, from the integers given: of c at most 6·2^-30, of k = n·h at most
-//! (4 + 5/|l + unit(−p)|)·2^-30; of k^a what that makes of it and 3·2^-30 of its own; each times the light; and 1 unit of the
-//! result (`tests/lighting.rs`). A hundred lights of colours −2…3 with a = 240 stay within 1/100 of a level of 255. Where c or
+//! (4 + 5/|l + unit(−p)|)·2^-30; of k^a what that makes of it and 3·2^-30 of its own; each times the light; and 1 unit
+//! of the result (`tests/lighting.rs`). A hundred lights of colours −2…3 with a = 240 stay within 1/100 of a level of
+//! 255. Where c or
 //! |l + unit(−p)| is 0 but for its error, a highlight is either there or not: it begins with a jump.
 //!
 //! **Cost**: without a [`Shiny`] surface there is no code for highlights, with room for 0 bulbs none for bulbs.
@@ -57,7 +58,7 @@ use crate::num::{Block, Word, dot, power, unit, unit_wide};
 pub enum Light<T> {
     /// Infinitely far away.
     Sun {
-        /// Towards the light, length 1 in units of 2^-30 (see [`unit`]).
+        /// Towards the light, length 1 in units of 2^-30 (see [`unit`](fn@unit)).
         direction: [i32; 3],
         /// Its colour.
         color: [i32; 3],
@@ -144,8 +145,8 @@ impl<T: Word, const SUNS: usize, const BULBS: usize> Lights<T, SUNS, BULBS> {
 
     /// The lights for fragments whose positions are in units of 2^`exponent`: once per draw or primitive.
     ///
-    /// Bulbs are rounded to that unit, as fragments are: from d units away the direction is within 1/d. However far a bulb, no
-    /// more is lost than 2^-29 of the direction.
+    /// Bulbs are rounded to that unit, as fragments are: from d units away the direction is within 1/d. However far a
+    /// bulb, no more is lost than 2^-29 of the direction.
     pub fn at_scale(&self, exponent: i32) -> Lit<'_, BULBS> {
         let mut bulbs = Vec::new();
         for &(position, color) in &self.bulbs {
@@ -162,8 +163,8 @@ impl<T: Word, const SUNS: usize, const BULBS: usize> Lights<T, SUNS, BULBS> {
     }
 }
 
-/// A position in units of 2^`exponent`, |c| ≤ 2^62. One too far for that is brought nearer on its line from the origin, to
-/// 2^61 at least, where a fragment's |p| ≤ 2^31 turns the direction by no more than 2^-30.
+/// A position in units of 2^`exponent`, |c| ≤ 2^62. One too far for that is brought nearer on its line from the
+/// origin, to 2^61 at least, where a fragment's |p| ≤ 2^31 turns the direction by no more than 2^-30.
 fn to_units<T: Word>(position: Block<T, 3>, exponent: i32) -> [i64; 3] {
     let mantissas = position.mantissas().map(T::to_i64);
     let all_bits = mantissas.iter().fold(0, |bits, c| bits | c.unsigned_abs());
@@ -201,9 +202,9 @@ pub struct Lit<'a, const BULBS: usize> {
 impl<const BULBS: usize> Lit<'_, BULBS> {
     /// The colour of one fragment, in units of 2^-16 of full, saturated at ±2^15 of full and otherwise not clamped.
     ///
-    /// `normal`: any length; interpolated ones need not be normalised. 0 is dark. `position`: the fragment's in eye space, in
-    /// the units given to [`at_scale`](Lights::at_scale); not looked at with suns only on a [`Matte`] surface. `surface`:
-    /// its colour without light, in units of 2^-16 of full.
+    /// `normal`: any length; interpolated ones need not be normalised. 0 is dark. `position`: the fragment's in eye
+    /// space, in the units given to [`at_scale`](Lights::at_scale); not looked at with suns only on a [`Matte`]
+    /// surface. `surface`: its colour without light, in units of 2^-16 of full.
     #[inline]
     pub fn shade<F: Finish>(&self, normal: [i32; 3], position: [i32; 3], surface: [i32; 3], finish: &F) -> [i32; 3] {
         let Some(normal) = unit(normal) else {
@@ -234,8 +235,8 @@ impl<const BULBS: usize> Lit<'_, BULBS> {
     }
 }
 
-/// What the lights so far add, in units of 2^-30 of full. A light adds less than 2^45.1, so that 2^16 of them stay below
-/// 2^61.1.
+/// What the lights so far add, in units of 2^-30 of full. A light adds less than 2^45.1, so that 2^16 of them stay
+/// below 2^61.1.
 struct Sum<'a, F> {
     normal: [i32; 3],
     finish: &'a F,

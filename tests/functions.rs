@@ -68,6 +68,7 @@ fn square_root_is_exact() {
         assert_square_root(random.next() >> (i % 64));
     }
     assert_square_root(u64::MAX);
+    document("`square_root`", 0.0);
 }
 
 fn reciprocal_square_root_error(square: u32) -> f64 {
@@ -91,7 +92,7 @@ fn reciprocal_square_root_error_is_documented() {
     assert_eq!(reciprocal_square_root(0), reciprocal_square_root(1 << 30));
 }
 
-/// All 3·2^30 words: half a minute. `cargo test --release --test functions -- --ignored --nocapture`
+/// All 3·2^30 words: a minute at most. `cargo test --release --test functions -- --ignored --nocapture`
 #[test]
 #[ignore = "3.2 billion words"]
 fn reciprocal_square_root_of_every_word() {
@@ -150,7 +151,8 @@ fn unit_error_is_documented() {
     document("`unit_wide`", worst[1]);
 }
 
-/// The largest error in units of 2^-30 over the bases of a sweep: the 2^16 smallest, the 2^16 next to 1, and 300,000 between.
+/// The largest error in units of 2^-30 over the bases of a sweep: the 2^16 smallest, the 2^16 next to 1, and 300,000
+/// between.
 fn power_error(exponents: impl Iterator<Item = u32>) -> f64 {
     let one = 1i32 << 30;
     let mut worst = 0.0f64;

@@ -2,7 +2,7 @@
 
 use fixel::error::Error;
 use fixel::light::{Finish, Light, Lights, Matte, Shiny};
-use fixel::num::Block;
+use fixel::num::{Block, Word};
 use proptest::prelude::*;
 
 const FULL: i32 = 1 << 16;
@@ -454,28 +454,37 @@ fn one_light_too_many_is_an_error() {
 /// A bulb 2^e units away, on either side of what 64 bits hold, is a sun with a parallax of 2^30/2^e.
 #[test]
 fn a_far_bulb_is_a_sun() {
+    fn shade<T: Word, const SUNS: usize, const BULBS: usize>(light: Light<T>, position: [i32; 3]) -> [i32; 3] {
+        let mut lights = Lights::<T, SUNS, BULBS>::default();
+        lights.add(light).unwrap();
+        lights.at_scale(0).shade([1, 1, 1 << 20], position, [FULL; 3], &Matte)
+    }
     let towards = [3 << 26, -5 << 26, 2 << 26];
+    let color = [16_384 * FULL; 3];
+    let sun = shade::<i32, 1, 0>(Light::sun(towards, color).unwrap(), [0; 3]);
+    let at = [-1 << 30, 1 << 30, 1 << 29];
     for exponent in 8..1000 {
-        let mut lights = Lights::<i64, 0, 1>::default();
-        let position = Block::new(towards.map(i64::from), exponent);
-        lights
-            .add(Light::Bulb {
-                position,
-                color: [16_384 * FULL; 3],
-            })
-            .unwrap();
-        let far = lights
-            .at_scale(0)
-            .shade([1, 1, 1 << 20], [-1 << 30, 1 << 30, 1 << 29], [FULL; 3], &Matte);
-        let mut lights = Lights::<i64, 1, 0>::default();
-        lights.add(Light::sun(towards, [16_384 * FULL; 3]).unwrap()).unwrap();
-        let sun = lights.at_scale(0).shade([1, 1, 1 << 20], [0; 3], [FULL; 3], &Matte);
+        let [narrow, wide] = [
+            shade::<i32, 0, 1>(
+                Light::Bulb {
+                    position: Block::new(towards, exponent),
+                    color,
+                },
+                at,
+            ),
+            shade::<i64, 0, 1>(
+                Light::Bulb {
+                    position: Block::new(towards.map(i64::from), exponent),
+                    color,
+                },
+                at,
+            ),
+        ];
+        assert_eq!(narrow, wide, "{exponent}");
         let parallax = 0.5f64.powi(exponent - 2);
         let allowed = 16_384.0 * FULL as f64 * (parallax + 12.0 / (1 << 30) as f64);
-        assert!(
-            far.iter().zip(sun).all(|(a, b)| (a - b).abs() as f64 <= allowed),
-            "{exponent}: {far:?} {sun:?}"
-        );
+        let near = |(a, b): (&i32, i32)| (a - b).abs() as f64 <= allowed;
+        assert!(wide.iter().zip(sun).all(near), "{exponent}: {wide:?} {sun:?}");
     }
 }
 

@@ -8,8 +8,8 @@
 /// Within 3 units (3·2^-30) for every base and exponent; 0^0 = 1 and 0^x = 0 for every other x, 1^x = 1, both exactly.
 /// A base outside 0…2^30 is taken as the nearer end.
 ///
-/// That is the error of the function. An error δ of the *base* is multiplied by a·base^(a−1) as in any arithmetic: by up to
-/// 240 at exponent 240, and without bound towards base 0 for exponents below 1.
+/// That is the error of the function. An error δ of the *base* is multiplied by a·base^(a−1) as in any arithmetic: by
+/// up to 240 at exponent 240, and without bound towards base 0 for exponents below 1.
 ///
 /// 2^(a·log₂ base), both functions from a table of 32 entries and a polynomial; 288 bytes of tables, 13 long
 /// multiplications, no division.
@@ -107,7 +107,8 @@ const INVERSE_LOGS: [u32; 32] = {
     logs
 };
 
-/// 2^-j/32 in units of 2^-31, rounded to nearest: products of 2^-1/2, 2^-1/4 … 2^-1/32, each the root of the one before.
+/// 2^-j/32 in units of 2^-31, rounded to nearest: products of 2^-1/2, 2^-1/4 … 2^-1/32, each the root of the one
+/// before.
 const EXP_STEPS: [u32; 32] = {
     let mut steps = [0; 32];
     let mut j = 0;
@@ -126,7 +127,8 @@ const EXP_STEPS: [u32; 32] = {
     steps
 };
 
-/// log₂(1 + t)/t in units of 2^-30, highest power first: ±1/(n·ln 2). What is left out, t⁶/(6·ln 2), is below 2^-30 of t.
+/// log₂(1 + t)/t in units of 2^-30, highest power first: ±1/(n·ln 2). What is left out, t⁶/(6·ln 2), is below 2^-30 of
+/// t.
 const LOG_SERIES: [i32; 5] = [309_816_401, -387_270_501, 516_360_668, -774_541_002, 1_549_082_005];
 
 /// (1 − 2^-r)/r in units of 2^-31, highest power first: (ln 2)ⁿ/n!. What is left out, (r·ln 2)⁵/120, is below 2^-34.

@@ -5,7 +5,7 @@
 /// floor(√`square`), exactly, for every `u64`.
 ///
 /// The estimate from [`reciprocal_square_root`] is off by a few units of the normalised square; the remainder says how
-/// many, so that no divide instruction is needed. (`u64::isqrt` divides 64 bits by 64: 250 instructions on a Cortex-M4.)
+/// many. (`u64::isqrt` divides 64 bits, a library call on every Cortex-M.)
 ///
 /// ```
 /// use fixel::num::square_root;
@@ -40,8 +40,8 @@ pub fn square_root(square: u64) -> u32 {
 /// As fractions: 1/√s in units of 2^-31 for s = `square`·2^-32 in ¼…1. Within 3·2^-32 of the true value, relatively. A
 /// smaller square is taken as 2^30.
 ///
-/// A seed from a table of 96 entries is within 2^-7; a step of third order, y·(1 + e/2 + 3e²/8) with e = 1 − s·y², takes
-/// that to 2^-19, Newton's y·(1 + e/2) to what 32 bits hold. Six long multiplications.
+/// A seed from a table of 96 entries is within 2^-7; a step of third order, y·(1 + e/2 + 3e²/8) with e = 1 − s·y²,
+/// takes that to 2^-19, Newton's y·(1 + e/2) to what 32 bits hold. Five long multiplications.
 ///
 /// ```
 /// use fixel::num::reciprocal_square_root;
@@ -106,7 +106,7 @@ pub fn unit(vector: [i32; 3]) -> Option<[i32; 3]> {
     Some(vector.map(|c| high_signed(c as i64 * inverse as i64 + half) >> down))
 }
 
-/// [`unit`] of longer numbers: differences of positions, cross products.
+/// [`unit`](fn@unit) of longer numbers: differences of positions, cross products.
 ///
 /// Every component is within 3·2^-30 of the true one.
 ///
