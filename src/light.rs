@@ -8,15 +8,15 @@
 //! the second term only for a [`Shiny`] surface. A sun's l is fixed, a bulb's is unit(b − p), and unit(0) is 0. A
 //! light with c ≤ 0 adds nothing at all. There is no ambient light, no fading with distance and no shadow.
 //!
-//! **Colours** are in units of 2^-16 of full, all of `i32`: ±2^15 of full. Nothing is clamped but the result, to that range:
-//! the sums are kept in 64 bits. Addition of integers commutes, so the order of lights does not matter to a bit. For
-//! still brighter lights give all light colours in a larger unit; the result is then in that unit too.
+//! **Colours** are in units of 2^-16 of full, all of `i32`: ±2^15 of full. Nothing is clamped but the result, to that
+//! range: the sums are kept in 64 bits. Addition of integers commutes, so the order of lights does not matter to a bit.
+//! For still brighter lights give all light colours in a larger unit; the result is then in that unit too. So it is with
+//! surfaces, but that what glints must say so ([`Finish::highlight`]); [`Lit::shade_wide`] does not clamp at all.
 //!
 //! **Error** against exact arithmetic, from the integers given: of c at most 6·2^-30, of k = n·h at most
 //! (4 + 5/|l + unit(−p)|)·2^-30; of k^a what that makes of it and 3·2^-30 of its own; each times the light; and 1 unit
 //! of the result (`tests/lighting.rs`). A hundred lights of colours −2…3 with a = 240 stay within 1/100 of a level of
-//! 255. Where c or
-//! |l + unit(−p)| is 0 but for its error, a highlight is either there or not: it begins with a jump.
+//! 255. Where c or |l + unit(−p)| is 0 but for its error, a highlight is either there or not: it begins with a jump.
 //!
 //! **Cost**: without a [`Shiny`] surface there is no code for highlights, with room for 0 bulbs none for bulbs.
 //!
@@ -207,6 +207,30 @@ impl<const BULBS: usize> Lit<'_, BULBS> {
     /// surface. `surface`: its colour without light, in units of 2^-16 of full.
     #[inline]
     pub fn shade<F: Finish>(&self, normal: [i32; 3], position: [i32; 3], surface: [i32; 3], finish: &F) -> [i32; 3] {
+        let color = self.shade_wide(normal, position, surface, finish);
+        color.map(|c| c.clamp(i32::MIN as i64, i32::MAX as i64) as i32)
+    }
+
+    /// As [`shade`](Self::shade), but not clamped: below 2^63.1, where only more than 60000 lights of full range reach 2^63,
+    /// and saturate there. For colours in units so fine that what is full does not fit an `i32`.
+    ///
+    /// ```
+    /// use fixel::light::{Light, Lights, Matte};
+    /// let mut lights = Lights::<i32, 1, 0>::default();
+    /// lights.add(Light::sun([0, 0, 1], [1 << 30; 3])?)?;
+    /// let scene = lights.at_scale(0);
+    /// // 2^14 of full on a surface of 2^14: 2^28 of full.
+    /// assert_eq!(scene.shade_wide([0, 0, 1], [0; 3], [1 << 30; 3], &Matte), [1 << (28 + 16); 3]);
+    /// # Ok::<(), fixel::error::Error>(())
+    /// ```
+    #[inline]
+    pub fn shade_wide<F: Finish>(
+        &self,
+        normal: [i32; 3],
+        position: [i32; 3],
+        surface: [i32; 3],
+        finish: &F,
+    ) -> [i64; 3] {
         let Some(normal) = unit(normal) else {
             return [0; 3];
         };
@@ -262,7 +286,7 @@ impl<F: Finish> Sum<'_, F> {
     }
 
     #[inline]
-    fn color(&self, surface: [i32; 3]) -> [i32; 3] {
+    fn color(&self, surface: [i32; 3]) -> [i64; 3] {
         let mut specular = self.specular.into_iter();
         let mut parts = self.diffuse.into_iter().zip(surface);
         // Both iterators have 3 items.
@@ -270,9 +294,10 @@ impl<F: Finish> Sum<'_, F> {
             let (diffuse, surface) = parts.next().unwrap_or_default();
             let mut color = times(diffuse, surface);
             if F::SHINES {
-                color += (specular.next().unwrap_or_default() + (1 << 13)) >> 14;
+                let specular = specular.next().unwrap_or_default();
+                color = color.saturating_add(times(specular, self.finish.highlight()));
             }
-            color.clamp(i32::MIN as i64, i32::MAX as i64) as i32
+            color
         })
     }
 }
@@ -298,6 +323,11 @@ pub trait Finish {
     const SHINES: bool;
     /// Share of the light, best 0…1, for n·h in 0…1, both in units of 2^-30. The cosine may pass 1 by a few units.
     fn strength(&self, cosine: i32) -> i32;
+    /// How bright the highlight is, in the unit of surface colours: full is 2^16 unless the caller has chosen another one.
+    #[inline(always)]
+    fn highlight(&self) -> i32 {
+        1 << 16
+    }
 }
 
 /// No highlight.

@@ -39,15 +39,15 @@ pub fn read_picture(path: &Path) -> Result<Picture, Trouble> {
     png::decode(BufReader::new(file)).map_err(|error| trouble(path, "read", error))
 }
 
-/// Whether a texture is there and can be used; the error says why not, without the name.
-pub fn check_texture(path: &Path) -> Result<(), String> {
+/// A PNG file as a texture; the error says what is wrong with it, without the name.
+pub fn read_texture(path: &Path) -> Result<Picture, String> {
     let kind = fs::metadata(path).map_err(|error| error.to_string())?;
     // A pipe would make us wait for ever for somebody to write.
     if !kind.is_file() {
         return Err("not a file".to_owned());
     }
     let file = File::open(path).map_err(|error| error.to_string())?;
-    png::check(BufReader::new(file))
+    png::decode_texture(BufReader::new(file))
 }
 
 /// Tells whether two names mean the same file, whatever their spelling, links included.
@@ -242,9 +242,9 @@ mod tests {
         fs::write(at("text.png"), "png 8 8 out.png").expect("written");
         let picture = Picture::new(1, 1, vec![[1; 4]]);
         fs::write(at("good.png"), png::encode(&picture).expect("encoded")).expect("written");
-        assert_eq!(check_texture(&at("good.png")), Ok(()));
+        assert_eq!(read_texture(&at("good.png")).as_ref(), Ok(&picture));
         for name in ["nosuch.png", "text.png", ".", "good.png/x"] {
-            assert!(check_texture(&at(name)).is_err(), "{name}");
+            assert!(read_texture(&at(name)).is_err(), "{name}");
         }
         assert_eq!(read_picture(&at("good.png")), Ok(picture));
     }

@@ -1,98 +1,127 @@
 //! Walks a scene's commands once and drives a back end: the state that belongs to no back end lives here.
 
-use crate::backend::{BackEnd, Surface, Vertex};
-use crate::scene::{Action, Command, Fault, Fill, Scene};
+use crate::backend::{BackEnd, Patch, Surface, Vertex};
+use crate::scene::{Action, Fault, Fill, Scene};
 
 /// Draws the scene.
 ///
 /// # Errors
-/// A fault at the keyword of a command that is not supported yet, or whose values do not fit the back end.
+/// A fault at the keyword of a command whose values do not fit the back end.
 pub fn interpret(scene: &Scene, back_end: &mut dyn BackEnd) -> Result<(), Fault> {
-    let mut state = State { vertices: Vec::new(), color: [1.0; 3], primitive: 0 };
+    let mut state = State {
+        scene,
+        vertices: Vec::new(),
+        next: Vertex {
+            position: [0.0; 4],
+            color: [1.0; 3],
+            normal: None,
+            texcoord: [0.0; 2],
+        },
+        primitives: 0,
+    };
     for command in &scene.commands {
-        let fault = |message| Fault { place: command.place, message };
-        state.obey(command, back_end).map_err(fault)?;
+        let fault = |message| Fault::new(command.place, message);
+        if !state.remember(&command.action) {
+            state.obey(&command.action, back_end).map_err(fault)?;
+        }
     }
     Ok(())
 }
 
 /// What commands leave behind for later ones.
-struct State {
+struct State<'s> {
+    scene: &'s Scene,
     vertices: Vec<Vertex>,
-    color: [f64; 3],
-    primitive: u32,
+    /// What the next vertex will be, but for its position.
+    next: Vertex,
+    /// Drawn so far.
+    primitives: u32,
 }
 
-impl State {
-    fn obey(&mut self, command: &Command, back_end: &mut dyn BackEnd) -> Result<(), String> {
-        match &command.action {
-            Action::Vertex(position) => {
-                self.vertices.push(Vertex { position: *position, color: self.color });
-                Ok(())
+impl State<'_> {
+    /// Whether the action only changes what later ones draw with.
+    fn remember(&mut self, action: &Action) -> bool {
+        match *action {
+            Action::Vertex(position) => self.vertices.push(Vertex { position, ..self.next }),
+            Action::Color(color) => self.next.color = color,
+            Action::Normal(normal) => self.next.normal = (normal != [0.0; 3]).then_some(normal),
+            Action::TexCoord(texcoord) => self.next.texcoord = texcoord,
+            _ => return false,
+        }
+        true
+    }
+
+    fn obey(&mut self, action: &Action, back_end: &mut dyn BackEnd) -> Result<(), String> {
+        match action {
+            Action::Vertex(_) | Action::Color(_) | Action::Normal(_) | Action::TexCoord(_) => {}
+            Action::Texture(name) => {
+                let texture = self.scene.textures.get(name).ok_or("the texture was not loaded")?;
+                back_end.texture(texture)?;
             }
-            Action::Color(color) => {
-                self.color = *color;
-                Ok(())
+            Action::Triangle(fill, corners) => {
+                let corners = self.vertices(corners)?;
+                let first = self.count(1)?;
+                back_end.triangle(first, corners, self.surface(*fill))?;
             }
-            // Nothing that is drawn yet looks at these.
-            Action::Normal(_) | Action::TexCoord(_) | Action::Texture(_) | Action::Decals | Action::FlatNormals => {
-                Err(unsupported(&command.action))
+            Action::RectPatch(fill, level, points) => {
+                self.patch(Patch::Rectangular(&self.vertices(points)?), *level, *fill, back_end)?;
             }
-            Action::Triangle(fill, corners) => self.triangle(*fill, *corners, back_end),
-            Action::LoadMv(m) => back_end.load_mv(m),
-            Action::MultMv(m) => back_end.mult_mv(m),
-            Action::LoadP(m) => back_end.load_p(m),
-            Action::Translate(by) => back_end.translate(*by),
-            Action::Rotate(degrees, axis) => back_end.rotate(*degrees, *axis),
-            Action::Scale(by) => back_end.scale(*by),
+            Action::TriPatch(fill, level, points) => {
+                self.patch(Patch::Triangular(&self.vertices(points)?), *level, *fill, back_end)?;
+            }
+            Action::LoadMv(m) => back_end.load_mv(m)?,
+            Action::MultMv(m) => back_end.mult_mv(m)?,
+            Action::LoadP(m) => back_end.load_p(m)?,
+            Action::Translate(by) => back_end.translate(*by)?,
+            Action::Rotate(degrees, axis) => back_end.rotate(*degrees, *axis)?,
+            Action::Scale(by) => back_end.scale(*by)?,
             Action::LookAt(eye, center, up) => {
-                back_end.look_at(self.vertex(*eye)?.position, self.vertex(*center)?.position, *up)
+                let [eye, center] = self.vertices(&[*eye, *center])?;
+                back_end.look_at(eye.position, center.position, *up)?;
             }
-            Action::Frustum(planes) => back_end.frustum(*planes),
-            Action::Ortho(planes) => back_end.ortho(*planes),
-            Action::ClipPlane(plane) => back_end.clip_plane(*plane),
-            Action::Cull => {
-                back_end.cull();
-                Ok(())
+            Action::Frustum(planes) => back_end.frustum(*planes)?,
+            Action::Ortho(planes) => back_end.ortho(*planes)?,
+            Action::ClipPlane(plane) => back_end.clip_plane(*plane)?,
+            Action::Cull => back_end.cull(),
+            Action::Decals => back_end.decals(),
+            Action::FlatNormals => back_end.flat_normals(),
+            Action::Sun(direction) => back_end.sun(*direction, self.next.color)?,
+            Action::Bulb(vertex) => {
+                let [at] = self.vertices(&[*vertex])?;
+                back_end.bulb(at.position, self.next.color)?;
             }
-            Action::RectPatch(..) | Action::TriPatch(..) | Action::Sun(_) | Action::Bulb(_) | Action::Shininess(_) => {
-                Err(unsupported(&command.action))
-            }
+            Action::Shininess(exponent) => back_end.shininess(*exponent)?,
+        }
+        Ok(())
+    }
+
+    fn patch(&mut self, patch: Patch<'_>, level: u32, fill: Fill, back_end: &mut dyn BackEnd) -> Result<(), String> {
+        let first = self.count(patch.triangles(level))?;
+        back_end.patch(first, level, patch, self.surface(fill))
+    }
+
+    fn surface(&self, fill: Fill) -> Surface {
+        match fill {
+            Fill::Flat => Surface::Flat(self.next.color),
+            Fill::Gouraud => Surface::Gouraud,
+            Fill::Textured => Surface::Textured,
         }
     }
 
-    fn triangle(&mut self, fill: Fill, corners: [usize; 3], back_end: &mut dyn BackEnd) -> Result<(), String> {
-        let surface = match fill {
-            Fill::Flat => Surface::Flat(self.color),
-            Fill::Gouraud => Surface::Gouraud,
-            Fill::Textured => return Err(unsupported(&Action::Triangle(fill, corners))),
-        };
-        let [a, b, c] = corners;
-        self.primitive += 1;
-        back_end.triangle(self.primitive, [self.vertex(a)?, self.vertex(b)?, self.vertex(c)?], surface)
+    /// The number of the first of so many primitives.
+    fn count(&mut self, more: u32) -> Result<u32, String> {
+        let first = self.primitives + 1;
+        self.primitives = (self.primitives.checked_add(more)).ok_or("more than 2^32 - 1 triangles in one scene")?;
+        Ok(first)
     }
 
-    /// The parser has resolved and checked the index.
-    fn vertex(&self, index: usize) -> Result<Vertex, String> {
-        self.vertices.get(index).copied().ok_or_else(|| format!("vertex {} does not exist", index + 1))
+    /// The parser has resolved and checked the indices.
+    fn vertices<const N: usize>(&self, indices: &[usize; N]) -> Result<[Vertex; N], String> {
+        let mut found = [self.next; N];
+        for (vertex, &index) in found.iter_mut().zip(indices) {
+            let made = self.vertices.get(index);
+            *vertex = *made.ok_or_else(|| format!("vertex {} does not exist", index + 1))?;
+        }
+        Ok(found)
     }
-}
-
-fn unsupported(action: &Action) -> String {
-    let keyword = match action {
-        Action::Normal(_) => "normal",
-        Action::TexCoord(_) => "texcoord",
-        Action::Texture(_) => "texture",
-        Action::Decals => "decals",
-        Action::FlatNormals => "flatnormals",
-        Action::Triangle(..) => "trit",
-        Action::RectPatch(Fill::Flat, ..) => "rectbezf",
-        Action::RectPatch(..) => "rectbezg",
-        Action::TriPatch(Fill::Flat, ..) => "tribezf",
-        Action::TriPatch(..) => "tribezg",
-        Action::Sun(_) => "sunlight",
-        Action::Bulb(_) => "bulb",
-        _ => "shininess",
-    };
-    format!("{keyword} is not supported yet")
 }

@@ -38,28 +38,52 @@ pub fn angle(degrees: f64) -> Angle {
 pub struct Channels<const N: usize> {
     /// The corners' red, green and blue.
     pub corners: [[i32; 3]; N],
-    /// How far the units are from 2^-16 levels; 0 for colours up to 64 times full.
-    pub shift: u32,
+    /// How far the units are from 2^-16 levels.
+    pub shift: i32,
 }
 
-/// Colours with the finest units in which the largest of them fits the core's 2^30.
-pub fn channels<const N: usize>(colors: [[f64; 3]; N]) -> Channels<N> {
+/// The finest units of colours that are drawn as they are, or mixed with texels: 2^-16 levels, up to 64 times full.
+pub const PLAIN: i32 = 0;
+/// The finest units of colours that are lit: 2^-22 levels, up to full.
+pub const LIT: i32 = -6;
+
+/// Colours with the finest units, `finest` or larger, in which the largest of them fits the core's 2^30.
+pub fn channels<const N: usize>(colors: [[f64; 3]; N], finest: i32) -> Channels<N> {
     let largest = colors.iter().flatten().fold(0.0f64, |most, c| most.max(c.abs()));
-    let mut shift = 0u32;
+    let mut shift = finest;
     while 255.0 * largest / f64::from(shift).exp2() > f64::from(30 - CHANNEL_BITS).exp2() - 1.0 {
         shift += 1;
     }
-    let unit = f64::from(CHANNEL_BITS - shift as i32).exp2();
+    let unit = f64::from(CHANNEL_BITS - shift).exp2();
     // Halving before and doubling after keeps 255·c below the largest float64.
     let channel = |c: f64| (c * unit * 0.5 * 255.0 * 2.0).round() as i32;
-    Channels { corners: colors.map(|c| c.map(channel)), shift }
+    Channels {
+        corners: colors.map(|c| c.map(channel)),
+        shift,
+    }
 }
 
-/// A channel of a [`Channels`] as a byte: cut off, clamped to 0…255.
-pub fn byte(value: i32, shift: u32) -> u8 {
-    // From 2^40 units up a single unit is more than 255 levels.
-    let levels = (i64::from(value) << shift.min(32)) >> CHANNEL_BITS;
+/// A channel in units of 2^(shift − 16) levels as a byte: cut off, clamped to 0…255.
+pub fn byte(value: i64, shift: i32) -> u8 {
+    let up = shift.saturating_sub(CHANNEL_BITS);
+    let levels = match u32::try_from(up) {
+        // From 2^8 up a single unit is more than 255 levels.
+        Ok(up) => value.saturating_mul(1 << up.min(8)),
+        Err(_) => value >> up.unsigned_abs().min(63),
+    };
     levels.clamp(0, 255) as u8
+}
+
+/// A specular exponent in units of 2^-16, at least one of them; `None` for one that switches highlights off.
+///
+/// # Errors
+/// From 65536 on.
+pub fn shininess(exponent: f64) -> Result<Option<u32>, String> {
+    let units = (exponent * 65536.0).round();
+    if units > f64::from(u32::MAX) {
+        return Err("a shininess of 65536 or more".into());
+    }
+    Ok((exponent > 0.0).then_some((units as u32).max(1)))
 }
 
 #[cfg(test)]
@@ -87,7 +111,13 @@ mod tests {
 
     #[test]
     fn channels_cut_off_and_saturate() {
-        let bytes = |c: f64| byte(channels([[c; 3]]).corners[0][0], channels([[c; 3]]).shift);
-        assert_eq!([0.5, 1.0, 0.2, 0.6, 2.0, -1.0, 1e300, -1e300].map(bytes), [127, 255, 51, 153, 255, 0, 255, 0]);
+        let bytes = |c: f64| {
+            let lowered = channels([[c; 3]], PLAIN);
+            byte(i64::from(lowered.corners[0][0]), lowered.shift)
+        };
+        assert_eq!(
+            [0.5, 1.0, 0.2, 0.6, 2.0, -1.0, 1e300, -1e300].map(bytes),
+            [127, 255, 51, 153, 255, 0, 255, 0]
+        );
     }
 }

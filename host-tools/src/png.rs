@@ -1,11 +1,18 @@
 //! PNG, in and out. Whatever comes in is bounded by its header before anything is allocated for it.
 
-use std::io::{BufRead, Seek};
+use std::io::{BufRead, Seek, SeekFrom};
 
-use png::{ColorType, Decoder, DecodingError, Encoder, EncodingError, Reader, Transformations};
+use png::{ColorType, Decoder, DecodingError, Encoder, EncodingError, Limits, Reader, Transformations};
 
 use crate::picture::Picture;
 use crate::scene::{LONGEST_SIDE, MOST_PIXELS};
+
+/// The most texels of a texture: 32 MiB as RGBA.
+pub const MOST_TEXELS: u64 = 1 << 23;
+/// What one chunk beside the pixels, or a few rows of them, may take: bytes.
+const LARGEST_CHUNK: usize = 1 << 22;
+/// The most bytes that deflate makes of one (RFC 1951: a match of 258 bytes in 2 bits).
+const DEFLATE: u64 = 1032;
 
 /// The bytes of an 8-bit RGBA PNG file.
 pub fn encode(picture: &Picture) -> Result<Vec<u8>, EncodingError> {
@@ -23,43 +30,65 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, EncodingError> {
 /// Any PNG file as 8-bit RGBA: palettes and low depths are expanded, of 16 bits the upper 8 are kept, a missing alpha
 /// is 255. The error is what is wrong with the file.
 pub fn decode(file: impl BufRead + Seek) -> Result<Picture, String> {
-    let mut reader = open(file)?;
-    let size = reader.output_buffer_size().ok_or("too large for this machine")?;
-    let mut samples = vec![0; size];
-    let frame = reader.next_frame(&mut samples).map_err(unreadable)?;
-    samples.truncate(frame.buffer_size());
-    let pixels = match frame.color_type {
-        ColorType::Rgba => samples.as_chunks().0.to_vec(),
-        ColorType::Rgb => each(&samples, |[r, g, b]| [r, g, b, 255]),
-        ColorType::GrayscaleAlpha => each(&samples, |[v, a]| [v, v, v, a]),
-        ColorType::Grayscale => each(&samples, |[v]| [v, v, v, 255]),
+    decode_within(file, MOST_PIXELS)
+}
+
+/// As [`decode`], for a texture: at most [`MOST_TEXELS`].
+pub fn decode_texture(file: impl BufRead + Seek) -> Result<Picture, String> {
+    decode_within(file, MOST_TEXELS)
+}
+
+/// All in one buffer, allocated when the header has been found good.
+fn decode_within(mut file: impl BufRead + Seek, most: u64) -> Result<Picture, String> {
+    let length = file.seek(SeekFrom::End(0)).map_err(|error| error.to_string())?;
+    file.rewind().map_err(|error| error.to_string())?;
+    let mut reader = open(file, length, most)?;
+    let (width, height) = reader.info().size();
+    let mut pixels = vec![[0; 4]; width as usize * height as usize];
+    let frame = (reader.next_frame(pixels.as_flattened_mut())).map_err(unreadable)?;
+    // What follows the pixels counts too: their checksum, and the file's end.
+    reader.finish().map_err(unreadable)?;
+    match frame.color_type {
+        ColorType::Rgba => {}
+        ColorType::Rgb => spread(&mut pixels, |[r, g, b]| [r, g, b, 255]),
+        ColorType::GrayscaleAlpha => spread(&mut pixels, |[v, a]| [v, v, v, a]),
+        ColorType::Grayscale => spread(&mut pixels, |[v]| [v, v, v, 255]),
         ColorType::Indexed => return Err("its palette could not be expanded".to_owned()),
-    };
-    Ok(Picture::new(frame.width, frame.height, pixels))
+    }
+    Ok(Picture::new(width, height, pixels))
 }
 
-/// Whether [`decode`] would succeed with the file, in the memory of a row.
-pub fn check(file: impl BufRead + Seek) -> Result<(), String> {
-    let mut reader = open(file)?;
-    while reader.next_row().map_err(unreadable)?.is_some() {}
-    Ok(())
-}
-
-/// Reads the header and refuses what is too large.
-fn open<R: BufRead + Seek>(file: R) -> Result<Reader<R>, String> {
-    let mut decoder = Decoder::new(file);
+/// Reads the header and refuses what is too large, or larger than what so short a file can hold.
+fn open<R: BufRead + Seek>(file: R, length: u64, most: u64) -> Result<Reader<R>, String> {
+    let mut decoder = Decoder::new_with_limits(file, Limits { bytes: LARGEST_CHUNK });
     decoder.ignore_checksums(false);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     decoder.set_transformations(Transformations::EXPAND | Transformations::STRIP_16 | Transformations::ALPHA);
     let header = decoder.read_header_info().map_err(unreadable)?;
-    let (width, height) = (header.width, header.height);
-    if width.max(height) > LONGEST_SIDE || u64::from(width) * u64::from(height) > MOST_PIXELS {
+    let (width, height) = header.size();
+    let pixels = u64::from(width) * u64::from(height);
+    if width.max(height) > LONGEST_SIDE || pixels > most {
         return Err(format!(
-            "{width} x {height} is too large: at most {LONGEST_SIDE} a side and {MOST_PIXELS} pixels"
+            "{width} x {height} is too large: at most {LONGEST_SIDE} a side and {most} pixels"
+        ));
+    }
+    if pixels * header.bits_per_pixel() as u64 / 8 > length.saturating_mul(DEFLATE) {
+        return Err(format!(
+            "not a whole PNG file: {width} x {height} pixels cannot come out of {length} bytes"
         ));
     }
     decoder.read_info().map_err(unreadable)
+}
+
+/// Makes pixels of the samples that fill the buffer's first part, from the last to the first, so that no sample is
+/// overwritten before it is read.
+fn spread<const N: usize>(pixels: &mut [[u8; 4]], pixel: impl Fn([u8; N]) -> [u8; 4]) {
+    for i in (0..pixels.len()).rev() {
+        let mut samples = [0; N];
+        samples.copy_from_slice(&pixels.as_flattened()[N * i..N * (i + 1)]);
+        pixels[i] = pixel(samples);
+    }
 }
 
 fn unreadable(error: DecodingError) -> String {
@@ -70,10 +99,6 @@ fn unreadable(error: DecodingError) -> String {
         DecodingError::IoError(error) => error.to_string(),
         other => format!("not a readable PNG file: {other}"),
     }
-}
-
-fn each<const N: usize>(samples: &[u8], pixel: impl Fn([u8; N]) -> [u8; 4]) -> Vec<[u8; 4]> {
-    samples.as_chunks().0.iter().copied().map(pixel).collect()
 }
 
 #[cfg(test)]
@@ -107,7 +132,6 @@ mod tests {
         let pixels = (0..6).map(|i| [i, 2 * i, 255 - i, 40 * i]).collect();
         let picture = Picture::new(3, 2, pixels);
         let bytes = encode(&picture).expect("encoded");
-        assert_eq!(check(Cursor::new(&bytes)), Ok(()));
         assert_eq!(decode(Cursor::new(&bytes)), Ok(picture));
     }
 
@@ -139,7 +163,6 @@ mod tests {
         ] {
             let picture = decode(Cursor::new(&bytes)).expect("decoded");
             assert_eq!(picture.pixels, pixels);
-            assert_eq!(check(Cursor::new(&bytes)), Ok(()));
         }
     }
 
@@ -154,7 +177,6 @@ mod tests {
         let picture = decode(Cursor::new(&bytes)).expect("decoded");
         let grey: Vec<u8> = picture.pixels.iter().map(|pixel| pixel[0]).collect();
         assert_eq!(grey, [10, 20, 30, 40]);
-        assert_eq!(check(Cursor::new(&bytes)), Ok(()));
     }
 
     #[test]
@@ -180,12 +202,11 @@ mod tests {
     #[test]
     fn cut_off_files_are_refused() {
         let whole = encode(&Picture::new(4, 4, vec![[9, 8, 7, 6]; 16])).expect("encoded");
-        for length in 0..whole.len() - 16 {
+        for length in 0..whole.len() {
             let cut = &whole[..length];
             assert!(decode(Cursor::new(cut)).is_err(), "{length} bytes");
-            assert!(check(Cursor::new(cut)).is_err(), "{length} bytes");
         }
-        assert!(check(Cursor::new(b"png 8 8 out.png")).is_err());
+        assert!(decode(Cursor::new(b"png 8 8 out.png")).is_err());
     }
 
     fn chunk(bytes: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {

@@ -180,6 +180,7 @@ mod tests {
             width: 20,
             height: 10,
             comparison: Comparison {
+                beyond_gradient: 0,
                 pixels_drawn: 100,
                 coverage_differs: 1,
                 unexplained,

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use fixel::window::Window;
 use fixel_host::backend::BackEnd;
-use fixel_host::compare::{Class, compare};
+use fixel_host::compare::{Class, Comparison, compare};
 use fixel_host::fixed::{Fixed, FixedPicture};
 use fixel_host::interpret::interpret;
 use fixel_host::png;
 use fixel_host::reference::{Reference, Rendered};
-use fixel_host::scene::{Scene, hw2};
+use fixel_host::scene::{Action, Fill, Scene, hw2};
 
 /// The folder of the official HW2 scenes, unless it is not at hand.
 fn official() -> Option<PathBuf> {
@@ -24,7 +24,7 @@ fn official() -> Option<PathBuf> {
     }
 }
 
-/// Every scene of `folder` that needs no keyword of a later issue, by name.
+/// Every scene of `folder`, by name.
 fn scenes(folder: &Path) -> Vec<(String, Scene)> {
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)
         .expect("the folder exists")
@@ -32,24 +32,25 @@ fn scenes(folder: &Path) -> Vec<(String, Scene)> {
         .collect();
     paths.sort();
     let texts = paths.iter().filter(|p| p.extension().is_some_and(|e| e == "txt"));
-    let parsed = texts.map(|path| {
+    let parsed = |path: &PathBuf| {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let scene = hw2::parse(fs::read(path).unwrap(), folder).unwrap_or_else(|fault| panic!("{name}: {fault:?}"));
         (name, scene)
-    });
-    parsed
-        .filter(|(_, scene)| drawn(scene, Fixed::new(scene.width, scene.height)).is_some())
-        .collect()
+    };
+    let scenes: Vec<_> = texts.map(parsed).collect();
+    assert_eq!(scenes.len(), 31);
+    scenes
 }
 
-fn drawn(scene: &Scene, mut fixed: Fixed) -> Option<FixedPicture> {
-    match interpret(scene, &mut fixed as &mut dyn BackEnd) {
-        Ok(()) => Some(fixed.finish()),
-        Err(fault) => {
-            assert!(fault.message.ends_with("not supported yet"), "{fault:?}");
-            None
-        }
-    }
+fn drawn(scene: &Scene, mut fixed: Fixed) -> FixedPicture {
+    interpret(scene, &mut fixed as &mut dyn BackEnd).unwrap();
+    fixed.finish()
+}
+
+/// Compares the core's picture of a scene with the reference's.
+fn compared(scene: &Scene) -> Comparison {
+    let picture = drawn(scene, Fixed::new(scene.width, scene.height));
+    compare(&picture, &referenced(scene))
 }
 
 fn referenced(scene: &Scene) -> Rendered {
@@ -64,8 +65,7 @@ fn every_difference_is_explained() {
     let scenes = scenes(&folder);
     let mut failures = Vec::new();
     for (name, scene) in &scenes {
-        let picture = drawn(scene, Fixed::new(scene.width, scene.height)).unwrap();
-        let comparison = compare(&picture, &referenced(scene));
+        let comparison = compared(scene);
         println!(
             "{name}: drawn {}, {:?}, unexplained {}, max {}",
             comparison.pixels_drawn, comparison.explained, comparison.unexplained, comparison.max_channel_error
@@ -76,7 +76,45 @@ fn every_difference_is_explained() {
     }
     println!("{} scenes compared with float64", scenes.len());
     assert!(failures.is_empty(), "unexplained differences in {failures:?}");
-    assert!(scenes.len() >= 14, "14 of the scenes at hand need nothing else");
+}
+
+/// A scene's actions of one kind.
+fn uses(scene: &Scene, kind: impl Fn(&Action) -> bool) -> bool {
+    scene.commands.iter().any(|command| kind(&command.action))
+}
+
+#[test]
+fn lit_and_textured_colours_are_within_two_levels_of_what_moving_by_delta_makes() {
+    let Some(folder) = official() else { return };
+    let lit = |action: &Action| matches!(action, Action::Sun(_) | Action::Bulb(_));
+    let textured = |action: &Action| matches!(action, Action::Triangle(Fill::Textured, _));
+    let mut checked = 0;
+    for (name, scene) in scenes(&folder) {
+        if !uses(&scene, lit) && !uses(&scene, textured) {
+            continue;
+        }
+        let comparison = compared(&scene);
+        println!("{name}: {} levels", comparison.beyond_gradient);
+        // Pixels beyond that would have to be of another class, or unexplained.
+        assert!(comparison.beyond_gradient <= 2, "{name}");
+        assert_eq!(comparison.unexplained, 0, "{name}");
+        checked += 1;
+    }
+    assert!(checked >= 10, "{checked}");
+}
+
+#[test]
+fn no_more_than_one_texel_in_a_thousand_differs() {
+    let Some(folder) = official() else { return };
+    let textured = |action: &Action| matches!(action, Action::Triangle(Fill::Textured, _));
+    let mut checked = 0;
+    for (name, scene) in scenes(&folder).iter().filter(|(_, scene)| uses(scene, textured)) {
+        let comparison = compared(scene);
+        println!("{name}: {} of {}", comparison.explained.texel, comparison.pixels_drawn);
+        assert!(comparison.explained.texel * 1000 <= comparison.pixels_drawn, "{name}");
+        checked += 1;
+    }
+    assert!(checked >= 2, "{checked}");
 }
 
 /// A pixel over 2 %: some channel differs by more than 5, unless both are transparent.
@@ -95,7 +133,7 @@ fn official_pictures_within_two_percent_outside_the_ties() {
         }
         let expected = png::decode(Cursor::new(fs::read(official).unwrap())).unwrap();
         let ties = png::decode(Cursor::new(fs::read(folder.join(format!("{name}.ties.png"))).unwrap())).unwrap();
-        let picture = drawn(&scene, Fixed::new(scene.width, scene.height)).unwrap();
+        let picture = drawn(&scene, Fixed::new(scene.width, scene.height));
         let off = |i: &usize| over_2_percent(picture.pixels[*i].rgba, expected.pixels[*i]) && ties.pixels[*i][0] == 0;
         for stray in (0..picture.pixels.len()).filter(off) {
             let class = compare(&picture, &referenced(&scene)).classes[stray];
@@ -118,12 +156,12 @@ fn strips_equal_whole_frames() {
     let scenes = scenes(&folder);
     for (name, scene) in &scenes {
         let (width, height) = (scene.width as i32, scene.height as i32);
-        let whole = drawn(scene, Fixed::new(scene.width, scene.height)).unwrap();
+        let whole = drawn(scene, Fixed::new(scene.width, scene.height));
         for rows in [1, 2, 3, 7, 16, height] {
             let (mut pixels, mut depth) = (Vec::new(), Vec::new());
             for top in (0..height).step_by(rows as usize) {
                 let window = Window::new(0, top, width, (top + rows).min(height));
-                let strip = drawn(scene, Fixed::part(scene.width, scene.height, window)).unwrap();
+                let strip = drawn(scene, Fixed::part(scene.width, scene.height, window));
                 pixels.extend(strip.pixels);
                 depth.extend(strip.depth);
             }
@@ -133,7 +171,7 @@ fn strips_equal_whole_frames() {
             );
         }
         let tile = Window::new(width / 3, height / 4, width / 3 + 29, height / 4 + 31);
-        let part = drawn(scene, Fixed::part(scene.width, scene.height, tile)).unwrap();
+        let part = drawn(scene, Fixed::part(scene.width, scene.height, tile));
         for (i, pixel) in part.pixels.iter().enumerate() {
             let at = (tile.top as usize + i / 29) * scene.width as usize + tile.left as usize + i % 29;
             assert!(
@@ -154,8 +192,8 @@ fn wide_edges_agree() {
             continue; // Its corners lie beyond the guard band, which is eight times as wide with 64-bit edges.
         }
         let window = Window::new(0, 0, scene.width as i32, scene.height as i32);
-        let narrow = drawn(&scene, Fixed::with_word::<i32>(scene.width, scene.height, window)).unwrap();
-        let wide = drawn(&scene, Fixed::with_word::<i64>(scene.width, scene.height, window)).unwrap();
+        let narrow = drawn(&scene, Fixed::with_word::<i32>(scene.width, scene.height, window));
+        let wide = drawn(&scene, Fixed::with_word::<i64>(scene.width, scene.height, window));
         assert!(narrow == wide, "{name}");
     }
 }

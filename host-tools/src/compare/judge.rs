@@ -1,9 +1,11 @@
 //! Which class a differing pixel belongs to (see [`Class`]), told from the float64 scene alone.
 
-use super::interval::Interval;
+use std::cmp::Reverse;
+
 use super::shape::{Claim, Coverage, Shape};
+use super::surface::{Sight, Verdict};
 use super::{Class, picture};
-use crate::reference::{self, byte};
+use crate::reference;
 
 /// One differing pixel.
 pub struct Case<'a> {
@@ -16,20 +18,24 @@ pub struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// The class if both pictures have the same winner, whose shapes these are: *colour*, *pole* or unexplained.
-    pub fn same_winner(&self, own: &[Shape<'_>]) -> Class {
+    /// The class if both pictures have the same winner, whose shapes these are: *colour*, *texel*, *pole*, *steep* or unexplained;
+    /// and of class *colour* how many levels the pixel is beyond what moving the corners by δ makes of the value.
+    pub fn same_winner(&self, own: &[Shape<'_>]) -> (Class, u8) {
         let present: Vec<&Shape<'_>> = (own.iter())
             .filter(|shape| shape.claim(self.sample).is_some())
             .collect();
         let [r, g, b, _] = self.reference.color;
         // With one shape the reference's value is its; of several it is not known which won.
         let known = (present.len() == 1).then_some([r, g, b]);
-        let verdicts = present.iter().map(|shape| self.fits(shape, known));
-        match best(verdicts) {
-            Verdict::Fits => Class::Colour,
+        let best = present.iter().map(|shape| self.verdict(shape, known)).max();
+        let class = match best.unwrap_or(Verdict::Differs) {
+            Verdict::Colour(Reverse(beyond)) => return (Class::Colour, beyond),
+            Verdict::Texel => Class::Texel,
             Verdict::Pole => Class::Pole,
+            Verdict::Steep => Class::Steep,
             Verdict::Differs => Class::Unexplained,
-        }
+        };
+        (class, 0)
     }
 
     /// The class if the winners differ, given every shape that may touch the pixel, in any order: *edge*, *depth*, *pole* or
@@ -62,8 +68,8 @@ impl Case<'_> {
             } else {
                 continue;
             };
-            match self.fits(shape, None) {
-                Verdict::Fits => return explained,
+            match self.verdict(shape, None) {
+                Verdict::Colour(_) | Verdict::Texel | Verdict::Steep => return explained,
                 Verdict::Pole => class = Class::Pole,
                 Verdict::Differs => {}
             }
@@ -71,28 +77,17 @@ impl Case<'_> {
         class
     }
 
-    fn fits(&self, shape: &Shape<'_>, known: Option<[f64; 3]>) -> Verdict {
+    fn verdict(&self, shape: &Shape<'_>, known: Option<[f64; 3]>) -> Verdict {
         let [r, g, b, alpha] = self.fixed.rgba;
-        let within = |colors: [Interval; 3]| {
-            (colors.iter().zip([r, g, b])).all(|(c, level)| (byte(c.low)..=byte(c.high)).contains(&level))
+        let sight = Sight {
+            sample: self.sample,
+            fixed: [r, g, b],
+            known,
         };
-        match shape.allows(self.sample, known, &within) {
-            _ if alpha != 255 => Verdict::Differs,
-            Some(true) => Verdict::Fits,
-            Some(false) => Verdict::Differs,
-            None => Verdict::Pole,
+        if alpha == 255 {
+            shape.verdict(&sight)
+        } else {
+            Verdict::Differs
         }
     }
-}
-
-/// Whether a colour can be a shape's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Verdict {
-    Differs,
-    Pole,
-    Fits,
-}
-
-fn best(verdicts: impl Iterator<Item = Verdict>) -> Verdict {
-    verdicts.max().unwrap_or(Verdict::Differs)
 }

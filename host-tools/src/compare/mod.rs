@@ -5,12 +5,17 @@
 //! [`reference::log`](crate::reference::log). Every allowance is computed from the float64 scene, never from the difference
 //! seen; the constants are in [`stated`].
 
+mod direction;
 pub mod interval;
 mod judge;
+mod lighting;
+mod linear;
 pub mod picture;
 mod piece;
 mod shape;
 pub mod stated;
+mod surface;
+mod texels;
 mod tiles;
 
 use rayon::prelude::*;
@@ -36,7 +41,7 @@ pub enum Class {
     Texel,
     /// The interpolated 1/w is within its bound of 0.
     Pole,
-    /// A power's base lies so near 0 or 1 that its stated error explains the colour.
+    /// A power's base lies so near 0 or 1 that its stated error explains the colour, or n·l so near 0 that the light may be on or off.
     Steep,
     /// None of these: a bug.
     Unexplained,
@@ -74,6 +79,8 @@ pub struct Comparison {
     pub rmse: f64,
     /// 20 log₁₀(255 / rmse); none when the pictures are equal.
     pub psnr: Option<f64>,
+    /// How many levels a pixel of [`Class::Colour`] lies beyond what moving the corners by δ makes of the value, at the most.
+    pub beyond_gradient: u8,
     /// How many differing pixels each class explains.
     pub explained: Explained,
     /// The class of every pixel, row by row.
@@ -93,8 +100,9 @@ pub fn compare(fixed: &FixedPicture, reference: &Rendered) -> Comparison {
     let mut comparison = measured(fixed, reference, &bytes);
     let differing: Vec<usize> = (0..bytes.len()).filter(|&i| fixed.pixels[i].rgba != bytes[i]).collect();
     comparison.classes = vec![Class::Equal; bytes.len()];
-    for (&i, class) in differing.iter().zip(classify(fixed, reference, &differing)) {
+    for (&i, (class, beyond)) in differing.iter().zip(classify(fixed, reference, &differing)) {
         comparison.classes[i] = class;
+        comparison.beyond_gradient = comparison.beyond_gradient.max(beyond);
         comparison.count(class);
     }
     comparison
@@ -121,13 +129,14 @@ fn measured(fixed: &FixedPicture, reference: &Rendered, bytes: &[[u8; 4]]) -> Co
         max_channel_error,
         rmse,
         psnr: (squares > 0).then(|| 20.0 * (255.0 / rmse).log10()),
+        beyond_gradient: 0,
         explained: Explained::default(),
         classes: Vec::new(),
     }
 }
 
-/// The classes of the differing pixels.
-fn classify(fixed: &FixedPicture, reference: &Rendered, differing: &[usize]) -> Vec<Class> {
+/// The classes of the differing pixels, and by how many levels those of class *colour* are beyond their gradient.
+fn classify(fixed: &FixedPicture, reference: &Rendered, differing: &[usize]) -> Vec<(Class, u8)> {
     if differing.is_empty() {
         return Vec::new();
     }
@@ -147,7 +156,10 @@ fn classify(fixed: &FixedPicture, reference: &Rendered, differing: &[usize]) -> 
             reference: &reference.pixels[i],
         };
         if other_winner(&i) {
-            return case.other_winner(tiles.near(x, y).iter().map(|&shape| &shapes[shape]));
+            return (
+                case.other_winner(tiles.near(x, y).iter().map(|&shape| &shapes[shape])),
+                0,
+            );
         }
         case.same_winner(of_primitive(&shapes, case.fixed.primitive))
     };

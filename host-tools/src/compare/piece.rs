@@ -9,52 +9,30 @@
 //! has weights of both signs: at most one is negative, and at least -(n - 3), since no triangle of the fan is larger.
 //! So Σ|b| ≤ 2n - 5 =: spread, and the displacement is at most spread · δ. The corners' range still holds: the core clamps to it.
 
+use std::array::from_fn;
+
 use super::interval::Interval;
-use super::stated::{COLOR_LEVELS, DEPTH_PER_COLUMN, GRADIENT, GUARD, PERSPECTIVE, WIDE_GUARD};
+use super::linear::{Frame, Linear, Range};
+use super::stated::{DEPTH_PER_COLUMN, GUARD, PERSPECTIVE, WIDE_GUARD};
 use crate::reference::log::{Corner, Polygon};
-
-/// A function linear on the screen.
-#[derive(Debug, Clone, Copy)]
-struct Linear {
-    origin: [f64; 2],
-    value: f64,
-    gradient: [f64; 2],
-}
-
-impl Linear {
-    fn at(&self, p: [f64; 2]) -> f64 {
-        self.value + self.gradient[0] * (p[0] - self.origin[0]) + self.gradient[1] * (p[1] - self.origin[1])
-    }
-
-    /// What the core's relative error of gradients adds up to over the extents of a polygon.
-    fn swing(&self, extents: [f64; 2]) -> f64 {
-        GRADIENT * (self.gradient[0].abs() * extents[0] + self.gradient[1].abs() * extents[1])
-    }
-
-    fn slope(&self) -> f64 {
-        self.gradient[0].hypot(self.gradient[1])
-    }
-}
+use crate::reference::material::Material;
 
 /// The functions through a triangle's corners.
 #[derive(Debug, Clone, Copy)]
 struct Fit {
+    frame: Frame,
     depth: Linear,
     depth_error: Linear,
     reach: Linear,
     q: Linear,
-    colors: [Linear; 3],
-    /// Rounding of these functions in float64, relative to the largest corner value.
-    noise: f64,
 }
 
 /// One triangle.
 #[derive(Debug, Clone, Copy)]
-pub struct Piece {
+pub struct Piece<'a> {
     /// Its corners.
     pub corners: [Corner; 3],
-    mixed: bool,
-    gouraud: bool,
+    polygon: &'a Polygon,
     /// None if the triangle has no area that float64 can tell.
     fit: Option<Fit>,
     /// The largest |1/w| of the triangle inside the guard band.
@@ -78,9 +56,9 @@ pub fn guard(size: [f64; 2]) -> f64 {
     }
 }
 
-impl Piece {
+impl<'a> Piece<'a> {
     /// A triangle of a polygon's fan in a picture of `size` px; `count` is the most corners that clipping leaves the polygon.
-    pub fn new(corners: [Corner; 3], polygon: &Polygon, count: usize, size: [f64; 2]) -> Self {
+    pub fn new(corners: [Corner; 3], polygon: &'a Polygon, count: usize, size: [f64; 2]) -> Self {
         let fit = Fit::through(&corners, size);
         let guard = guard(size);
         let mut greatest_q = Interval::of(corners.map(|c| c.w.recip().abs())).high;
@@ -94,8 +72,7 @@ impl Piece {
         });
         Self {
             corners,
-            mixed: polygon.mixed,
-            gouraud: polygon.gouraud,
+            polygon,
             fit,
             greatest_q,
             extents,
@@ -103,6 +80,11 @@ impl Piece {
             walk: (size[0] + size[1] + 8.0) * f64::EPSILON,
             depth_steps: DEPTH_PER_COLUMN * (size[0] + 8.0) / 65535.0,
         }
+    }
+
+    /// What makes a colour of its values.
+    pub fn material(&self) -> &'a Material {
+        &self.polygon.material
     }
 
     /// δ at a sample in px: the displacement is the corners' mean at the unmoved point, which is itself δ away.
@@ -113,7 +95,7 @@ impl Piece {
         if slope >= 1.0 {
             return all.high;
         }
-        let here = fit.reach.at(p).max(all.low) + fit.noise * all.high;
+        let here = fit.reach.at(p).max(all.low) + fit.frame.noise * all.high;
         (here / (1.0 - slope)).min(all.high)
     }
 
@@ -136,52 +118,76 @@ impl Piece {
         let Some(fit) = self.fit else {
             return range.widened(errors.high + self.walk * largest);
         };
-        let error = fit.depth_error.at(p).clamp(errors.low, errors.high) + fit.noise * errors.high;
+        let error = fit.depth_error.at(p).clamp(errors.low, errors.high) + fit.frame.noise * errors.high;
         Interval::around(fit.depth.at(p), fit.depth.slope() * by)
             .clamped(range)
-            .widened(error + (fit.noise + self.walk) * largest)
+            .widened(error + (fit.frame.noise + self.walk) * largest)
     }
 
-    /// The colour as the core may have it at a sample; `known` is the reference's own value there, else the triangle's is
-    /// continued to it. None is a pole: 1/w is within its bound of 0 there, and the colour may be anything.
-    pub fn color(&self, p: [f64; 2], known: Option<[f64; 3]>) -> Option<[Interval; 3]> {
-        let greatest = self
-            .corners
-            .iter()
-            .flat_map(|c| c.color.map(f64::abs))
-            .fold(0.0, f64::max);
-        let arithmetic = COLOR_LEVELS / 255.0 * greatest.max(1.0);
-        if !self.gouraud {
-            return Some(self.corners[0].color.map(|c| Interval::around(c, arithmetic)));
-        }
-        let (least, fit) = (self.least_q(p), self.fit);
-        if self.mixed && least <= PERSPECTIVE * self.greatest_q {
+    /// N values in perspective as the core may have them at a sample; `known` are the reference's own there, else the triangle's
+    /// are continued to it. `lowering` is the core's error of a value before it is interpolated. None is a pole: 1/w is within
+    /// its bound of 0 there, and the values may be anything.
+    pub fn values<const N: usize>(
+        &self,
+        p: [f64; 2],
+        of: fn(&Corner) -> [f64; N],
+        known: Option<[f64; N]>,
+        lowering: f64,
+    ) -> Option<Range<N>> {
+        let least = self.least_q(p);
+        if self.polygon.mixed && least <= PERSPECTIVE * self.greatest_q {
             return None;
         }
-        let weights = Interval::of(self.corners.map(|c| c.weight_error)).high;
-        let noise = fit.map_or(0.0, |fit| fit.noise);
-        let relative = PERSPECTIVE + 2.0 * weights + self.walk + noise;
-        let ratio = self.greatest_q / least;
-        let swing = fit.map_or(0.0, |fit| fit.color_swing(self.extents, greatest)) / least;
-        let bound = arithmetic + relative * ratio * greatest + swing;
-        Some([0, 1, 2].map(|channel| {
-            let range = Interval::of(self.corners.map(|c| c.color[channel]));
-            let value = self.value(p, channel, known.map(|k| k[channel]), least);
-            let inside = if self.mixed { value } else { value.clamped(range) };
-            inside.widened(bound)
-        }))
+        let numerators = self.numerators(of);
+        let bound = lowering + self.interpolation(numerators.as_ref().map(|n| &n[..]), self.greatest(of), least);
+        let quotients = |n: [Linear; N], fit: &Fit| n.map(|n| n.at(p) / fit.q.at(p));
+        let own = numerators.zip(self.fit.as_ref()).map(|(n, fit)| quotients(n, fit));
+        let value = known.or(own).unwrap_or([f64::NAN; N]);
+        let moved = from_fn(|i| {
+            let free = self.along(p, numerators.map(|n| n[i]), value[i], least);
+            let range = Interval::of(self.corners.iter().map(|c| of(c)[i]));
+            if self.polygon.mixed { free } else { free.clamped(range) }
+        });
+        Some(Range {
+            value,
+            moved,
+            full: moved.map(|m| m.widened(bound)),
+        })
     }
 
-    /// N/Q and what moving by δ makes of it: |∇N - c ∇Q| δ over the least Q within δ.
-    fn value(&self, p: [f64; 2], channel: usize, known: Option<f64>, least: f64) -> Interval {
-        let Some(fit) = self.fit else { return Interval::ALL };
-        let (n, q) = (fit.colors[channel], fit.q);
+    /// The largest of some values at the polygon's corners.
+    pub fn greatest<const N: usize>(&self, of: impl Fn(&Corner) -> [f64; N]) -> f64 {
+        let all = self.polygon.outer.iter().flat_map(of);
+        all.map(f64::abs).fold(0.0, f64::max)
+    }
+
+    fn numerators<const N: usize>(&self, of: fn(&Corner) -> [f64; N]) -> Option<[Linear; N]> {
+        let corners = self.corners.map(|c| of(&c).map(|v| v / c.w));
+        let frame = self.fit?.frame;
+        Some(from_fn(|i| frame.linear(corners.map(|values| values[i]))))
+    }
+
+    /// The error of interpolation: relative to the greatest value, in proportion to 1/w, and what the gradients add up to.
+    fn interpolation(&self, numerators: Option<&[Linear]>, greatest: f64, least: f64) -> f64 {
+        let weights = Interval::of(self.corners.map(|c| c.weight_error)).high;
+        let noise = self.fit.map_or(0.0, |fit| fit.frame.noise);
+        let relative = PERSPECTIVE + 2.0 * weights + self.walk + noise;
+        let swing = |n: &[Linear]| Interval::of(n.iter().map(|n| n.swing(self.extents))).high.max(0.0);
+        let q = self.fit.map_or(0.0, |fit| fit.q.swing(self.extents));
+        let swing = numerators.map_or(0.0, swing) + greatest * q;
+        (relative * self.greatest_q * greatest + swing) / least
+    }
+
+    /// N/Q and what moving by δ makes of it: |∇N - v ∇Q| δ over the least Q within δ.
+    fn along(&self, p: [f64; 2], numerator: Option<Linear>, value: f64, least: f64) -> Interval {
+        let Some((n, fit)) = numerator.zip(self.fit) else {
+            return Interval::ALL;
+        };
         let moved = self.spread * self.reach(p);
-        if q.at(p).abs() <= q.slope() * moved {
+        if fit.q.at(p).abs() <= fit.q.slope() * moved {
             return Interval::ALL;
         }
-        let value = known.unwrap_or_else(|| n.at(p) / q.at(p));
-        let along = [0, 1].map(|i| n.gradient[i] - value * q.gradient[i]);
+        let along = [0, 1].map(|i| n.gradient[i] - value * fit.q.gradient[i]);
         Interval::around(value, along[0].hypot(along[1]) * moved / least)
     }
 
@@ -191,45 +197,20 @@ impl Piece {
         let here = self.fit.map_or(0.0, |fit| {
             fit.q.at(p).abs() - fit.q.slope() * self.spread * self.reach(p)
         });
-        if self.mixed { here } else { here.max(corners) }
+        if self.polygon.mixed { here } else { here.max(corners) }
     }
 }
 
 impl Fit {
-    /// |ΔN| + |c| |ΔQ| of the worst channel.
-    fn color_swing(&self, extents: [f64; 2], greatest: f64) -> f64 {
-        let numerators = self.colors.map(|n| n.swing(extents));
-        Interval::of(numerators).high + greatest * self.q.swing(extents)
-    }
-
     fn through(corners: &[Corner; 3], size: [f64; 2]) -> Option<Self> {
-        let distance = |c: &Corner| (c.position[0] - size[0] / 2.0).hypot(c.position[1] - size[1] / 2.0);
-        // From the corner nearest to the screen, so that rounding grows with the distance from there.
-        let mut sorted = *corners;
-        sorted.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let origin = sorted[0].position;
-        let [a, b] = [1, 2].map(|k| [0, 1].map(|i| sorted[k].position[i] - origin[i]));
-        let area = a[0] * b[1] - a[1] * b[0];
-        let noise = 4.0 * f64::EPSILON * a[0].hypot(a[1]) * b[0].hypot(b[1]) / area.abs();
-        if noise.is_nan() || noise > 1e-3 {
-            return None;
-        }
-        let linear = |value: &dyn Fn(&Corner) -> f64| {
-            let value = [value(&sorted[0]), value(&sorted[1]), value(&sorted[2])];
-            let (da, db) = (value[1] - value[0], value[2] - value[0]);
-            Linear {
-                origin,
-                value: value[0],
-                gradient: [(da * b[1] - db * a[1]) / area, (db * a[0] - da * b[0]) / area],
-            }
-        };
+        let frame = Frame::through(corners, size)?;
+        let linear = |value: fn(&Corner) -> f64| frame.linear(corners.each_ref().map(value));
         Some(Self {
-            depth: linear(&|c| c.z),
-            depth_error: linear(&|c| c.depth_error),
-            reach: linear(&|c| c.reach),
-            q: linear(&|c| 1.0 / c.w),
-            colors: [0, 1, 2].map(|i| linear(&|c| c.color[i] / c.w)),
-            noise,
+            frame,
+            depth: linear(|c| c.z),
+            depth_error: linear(|c| c.depth_error),
+            reach: linear(|c| c.reach),
+            q: linear(|c| 1.0 / c.w),
         })
     }
 }

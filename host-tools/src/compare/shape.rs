@@ -3,6 +3,7 @@
 use super::interval::Interval;
 use super::piece::{Piece, guard};
 use super::stated::DEPTH_ROUNDING;
+use super::surface::{Sight, Verdict, varies, verdict};
 use crate::reference::log::{Corner, Polygon, doubled_area};
 
 /// Whether the core covers a sample with a polygon.
@@ -27,7 +28,7 @@ pub struct Claim {
 pub struct Shape<'a> {
     /// The log's entry.
     pub polygon: &'a Polygon,
-    pieces: Vec<Piece>,
+    pieces: Vec<Piece<'a>>,
     /// The picture's centre, in px.
     centre: [f64; 2],
     /// Whether moving the corners by their reach may turn the polygon over, so that `cull` may decide otherwise.
@@ -90,17 +91,13 @@ impl<'a> Shape<'a> {
         Some(Claim { coverage, depth })
     }
 
-    /// Whether the core may have given a sample this colour. None is a pole: any colour.
-    pub fn allows(&self, p: [f64; 2], known: Option<[f64; 3]>, fits: &dyn Fn([Interval; 3]) -> bool) -> Option<bool> {
-        if self.polygon.wild && self.polygon.gouraud {
-            return None;
+    /// Whether the core may have given a sample its colour.
+    pub fn verdict(&self, sight: &Sight) -> Verdict {
+        if self.polygon.wild && varies(&self.polygon.material) {
+            return Verdict::Pole;
         }
-        for piece in self.near(p) {
-            if fits(piece.color(p, known)?) {
-                return Some(true);
-            }
-        }
-        Some(false)
+        let verdicts = self.near(sight.sample).map(|piece| verdict(piece, sight));
+        verdicts.max().unwrap_or(Verdict::Differs)
     }
 
     fn coverage(&self, p: [f64; 2]) -> Option<Coverage> {
@@ -121,7 +118,7 @@ impl<'a> Shape<'a> {
     }
 
     /// The pieces that a sample may belong to.
-    fn near(&self, p: [f64; 2]) -> impl Iterator<Item = &Piece> {
+    fn near(&self, p: [f64; 2]) -> impl Iterator<Item = &Piece<'a>> {
         let alone = self.pieces.len() == 1;
         self.pieces.iter().filter(move |piece| {
             let ring = || Ring::around(&piece.corners, self.centre, p);

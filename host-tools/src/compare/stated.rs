@@ -38,3 +38,47 @@ pub const GUARD: f64 = 4096.0;
 
 /// See [`GUARD`].
 pub const WIDE_GUARD: f64 = 32768.0;
+
+/// Error of a sun's direction and of a flat normal when it is handed to the fragments: three components rounded to 2⁻³⁰.
+pub const UNIT_VECTOR: f64 = 1.0 / (1u64 << 30) as f64;
+
+/// Error of c = n·l from the fragment's integers, as `fixel::light` states it: two unit vectors and a rounding.
+pub const COSINE: f64 = 6.0 / (1u64 << 30) as f64;
+
+/// Error of k = n·h beyond [`COSINE`], times |l + unit(-p)|, as `fixel::light` states it: what is cut off l and unit(-p) turns
+/// their sum the more, the shorter it is.
+pub const HALFWAY: f64 = 5.0 / (1u64 << 30) as f64;
+
+/// Error of a power, as `fixel::num::power` states it.
+pub const POWER: f64 = 3.0 / (1u64 << 30) as f64;
+
+/// Error of a power's exponent: rounded to units of 2⁻¹⁶, and to one of them at least.
+pub const EXPONENT: f64 = 1.0 / (1u64 << 16) as f64;
+
+/// What a value's error before interpolation counts: at least half a unit of 30 bits of it is rounding to that unit, for which
+/// the log counts one; the quotient of interpolation adds two.
+pub const UNITS: f64 = 2.5;
+
+/// By how much the direction of a bulb may be turned if it is so far off that its position does not fit 62 bits of the fragments'
+/// unit, as `fixel::light` states it.
+pub const FAR_BULB: f64 = 1.0 / (1u64 << 29) as f64;
+
+/// Rounding of a light's colour, relative to the largest channel of all lights: they have a common unit, of which that is 2²⁹ or
+/// more.
+pub const LIGHT_COLOR: f64 = 1.0 / (1u64 << 29) as f64;
+
+/// Arithmetic with a lit surface's colour before the light, in levels of 255 for colours up to 1 (in proportion beyond): units of
+/// 2⁻¹⁶ levels, where there is a texture, else finer ones. Half of one for rounding, two for the quotient of interpolation, one for
+/// a decal, and four for 2¹⁵ steps of rounded gradients in 2⁻¹⁴ of a unit, twice: along the rows and to the row.
+pub const LIT_SURFACE: f64 = 1.0 / (1u64 << 13) as f64;
+
+/// Rounding of a lit colour in levels of 255, times the largest channel of all lights and that of the surface (full at least).
+/// A unit of the light is 2⁻¹³ of the largest at most for each 2¹⁶, one of the surface 2⁻¹⁶ levels for surfaces up to 32 times
+/// full, else 2⁻²¹ of the largest; one unit of both goes to each of the diffuse and the specular part, and a unit of the surface to
+/// the highlight's brightness.
+pub const LIT: f64 = 1.0 / (1u64 << 20) as f64;
+
+/// The most that a lit colour may be off by arithmetic alone, in levels of 255, and still be in class *colour*. All errors above
+/// of a hundred lights of colours up to 3 and exponents up to 240 add up to 1/100 level; more than two levels takes a power that
+/// is steep, or brightness beyond all reason.
+pub const LIT_LEVELS: f64 = 2.0;

@@ -1,6 +1,7 @@
 //! Clipping against the user's planes in eye space (formats/hw2.md section 5): Sutherland-Hodgman, all values mixed
 //! linearly, the boundary kept.
 
+use super::attributes::{Attributes, Bounds};
 use super::bound::{Tracked, size};
 use super::matrix::Vector;
 use crate::compare::stated::{FIXED_PRODUCT, FLOAT_PRODUCT};
@@ -10,10 +11,12 @@ use crate::compare::stated::{FIXED_PRODUCT, FLOAT_PRODUCT};
 pub struct Corner {
     /// x, y, z, w after MV.
     pub eye: Vector,
-    /// Red, green, blue.
-    pub color: [f64; 3],
+    /// What is interpolated from here to the other corners.
+    pub at: Attributes,
     /// Bound of the distance of the core's `eye` from this one.
     pub error: f64,
+    /// Bounds of the differences of the core's attributes from these.
+    pub at_error: Bounds,
 }
 
 impl Corner {
@@ -24,9 +27,12 @@ impl Corner {
         let largest = size(&self.eye).max(size(&other.eye));
         Self {
             eye: [0, 1, 2, 3].map(|i| mix(self.eye[i], other.eye[i])),
-            color: [0, 1, 2].map(|i| mix(self.color[i], other.color[i])),
+            at: self.at.mixed(&other.at, t),
             // A mean of the ends' errors, and the rounding of the mean on both sides.
             error: mix(self.error, other.error) + 2.0 * (FIXED_PRODUCT + FLOAT_PRODUCT) * largest,
+            // The same for integers at the primitive's scale.
+            at_error: (self.at_error.max(&other.at_error))
+                .plus(&Bounds::of_carrying([&self.at, &other.at].into_iter())),
         }
     }
 }
@@ -110,8 +116,13 @@ mod tests {
     fn corner(x: f64, y: f64) -> Corner {
         Corner {
             eye: [x, y, 0.0, 1.0],
-            color: [x, 0.0, 0.0],
+            at: Attributes {
+                color: [x, 0.0, 0.0],
+                texcoord: [y, x + y],
+                ..Attributes::default()
+            },
             error: 1e-15,
+            at_error: Bounds::default(),
         }
     }
 
@@ -124,13 +135,14 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_mixes_position_and_colour() {
+    fn a_cut_mixes_all_values() {
         let polygon = clip(&triangle(), &[plane([-1.0, 0.0, 0.0, 1.0])], Side::Exact);
-        let points: Vec<_> = polygon.iter().map(|c| (c.eye[0], c.eye[1], c.color[0])).collect();
+        let points: Vec<_> = polygon.iter().map(|c| (c.eye[0], c.eye[1], c.at.color[0])).collect();
         assert_eq!(
             points,
             [(0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (1.0, 3.0, 1.0), (0.0, 4.0, 0.0)]
         );
+        assert!(polygon.iter().all(|c| c.at.texcoord == [c.eye[1], c.eye[0] + c.eye[1]]));
     }
 
     #[test]

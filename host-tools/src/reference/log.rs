@@ -5,8 +5,12 @@
 //! raised by their bound, which certainly holds whatever the core draws, and one with the planes lowered, which the core
 //! certainly draws. The same two handle a plane almost parallel to an edge, or through the whole triangle.
 
+use std::sync::Arc;
+
+use super::attributes::{Attributes, Bounds};
 use super::bound::Tracked;
 use super::clip::{Corner as EyeCorner, Plane, Side, clip};
+use super::material::{Fill, Material};
 use super::matrix::Vector;
 use crate::compare::stated::SNAP;
 
@@ -19,8 +23,12 @@ pub struct Corner {
     pub z: f64,
     /// w with its sign.
     pub w: f64,
-    /// Red, green, blue, not divided by w.
+    /// Red, green, blue, not divided by w; the same as in `at`.
     pub color: [f64; 3],
+    /// All that is interpolated, not divided by w.
+    pub at: Attributes,
+    /// Bounds of the differences of the core's attributes from these.
+    pub at_error: Bounds,
     /// δ in px: bound of the distance of the core's corner from this one; infinite where w may be 0.
     pub reach: f64,
     /// The part of `reach` that is free in direction. The rest, an error of w, moves the corner towards or away from the
@@ -40,6 +48,8 @@ pub struct Polygon {
     pub primitive: u32,
     /// Whether the colours are interpolated; else the corners have all the same.
     pub gouraud: bool,
+    /// What makes a colour of the interpolated attributes.
+    pub material: Arc<Material>,
     /// Everything that the core may draw lies in here, up to the corners' `reach`.
     pub outer: Vec<Corner>,
     /// What the core certainly draws, up to the corners' `reach`; none means the same as `outer`.
@@ -57,8 +67,8 @@ pub struct Polygon {
 pub struct Primitive<'a> {
     /// Its number, from 1.
     pub number: u32,
-    /// Whether the colours are interpolated.
-    pub gouraud: bool,
+    /// Its material.
+    pub material: &'a Arc<Material>,
     /// Its corners in eye space.
     pub triangle: &'a [EyeCorner; 3],
     /// The clip planes of the moment.
@@ -108,7 +118,8 @@ impl Primitive<'_> {
         }
         Polygon {
             primitive: self.number,
-            gouraud: self.gouraud,
+            gouraud: self.material.fill == Fill::Gouraud,
+            material: Arc::clone(self.material),
             culled: self.cull && doubled_area(&outer) >= 0.0,
             mixed: mixed(&outer),
             wild: !outer.iter().chain(inner.iter().flatten()).all(known),
@@ -121,14 +132,14 @@ impl Primitive<'_> {
         (polygon.iter())
             .map(|corner| {
                 let (clip, error) = self.projection.apply(&corner.eye, corner.error);
-                self.divided(clip, error, corner.color)
+                self.divided(clip, error, corner)
             })
             .collect()
     }
 
     /// A vertex off by E in clip space moves x/w by at most E / (|w| - E) and, its w being off, by |x/w| times as much
     /// again towards or away from the centre.
-    fn divided(&self, [x, y, z, w]: Vector, error: f64, color: [f64; 3]) -> Corner {
+    fn divided(&self, [x, y, z, w]: Vector, error: f64, from: &EyeCorner) -> Corner {
         let margin = w.abs() - error;
         let relative = if margin > 0.0 { error / margin } else { f64::INFINITY };
         let half = self.size.map(|s| s / 2.0);
@@ -137,7 +148,9 @@ impl Primitive<'_> {
             position: [x / w * half[0] + half[0], y / w * half[1] + half[1]],
             z: z / w,
             w,
-            color,
+            color: from.at.color,
+            at: from.at,
+            at_error: from.at_error,
             reach: shift + relative * (x / w * half[0]).hypot(y / w * half[1]),
             shift,
             depth_error: relative * (1.0 + (z / w).abs()) + f64::EPSILON * (z / w).abs(),
@@ -204,15 +217,24 @@ mod tests {
     fn eye(eye: Vector, error: f64) -> EyeCorner {
         EyeCorner {
             eye,
-            color: [1.0; 3],
+            at: Attributes::default(),
             error,
+            at_error: Bounds::default(),
         }
     }
 
     fn polygons(triangle: &[EyeCorner; 3], planes: &[Plane]) -> Vec<Polygon> {
+        let material = Material {
+            fill: Fill::Flat([1.0; 3]),
+            decals: false,
+            lights: Arc::default(),
+            shininess: 0.0,
+            flat_normal: None,
+            flat_normal_error: 0.0,
+        };
         let primitive = Primitive {
             number: 7,
-            gouraud: false,
+            material: &Arc::new(material),
             triangle,
             planes,
             projection: &Tracked::identity(),

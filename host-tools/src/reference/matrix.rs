@@ -149,6 +149,17 @@ pub fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|c| c / l)
 }
 
+/// The vector divided by its length, however long or short it is; 0 stays 0.
+pub fn unit_or_zero(v: [f64; 3]) -> [f64; 3] {
+    let largest = v.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+    match largest {
+        0.0 => v,
+        // Squares that would leave the range of numbers.
+        _ if !(1e-100..1e100).contains(&largest) => unit(v.map(|c| c / largest)),
+        _ => unit(v),
+    }
+}
+
 /// The cross product.
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [
@@ -158,7 +169,8 @@ pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+/// The dot product.
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 

@@ -5,8 +5,8 @@
 //! triangle costs what is on the screen, however far away its corners are. Samples lie at integer coordinates, and
 //! "from ceil(first) to before the end" is the fill rule: left and top are in, right and bottom are out.
 
-/// What is interpolated linearly on the screen: X and Y in pixels, Z, 1/w, and red, green and blue over w.
-pub type Point = [f64; 7];
+/// What is interpolated linearly on the screen: X and Y in pixels, Z, 1/w, and what else there is, over w.
+pub type Point<const N: usize> = [f64; N];
 
 /// Index of X in a [`Point`].
 pub const X: usize = 0;
@@ -16,9 +16,16 @@ pub const Y: usize = 1;
 pub const Z: usize = 2;
 /// Index of 1/w in a [`Point`].
 pub const Q: usize = 3;
+/// Index of the first of the rest in a [`Point`].
+pub const REST: usize = 4;
 
 /// Visits every covered sample of the picture, row by row: column, row, and the interpolated point.
-pub fn walk(corners: &[Point; 3], width: u32, height: u32, mut visit: impl FnMut(usize, usize, &Point)) {
+pub fn walk<const N: usize>(
+    corners: &[Point<N>; 3],
+    width: u32,
+    height: u32,
+    mut visit: impl FnMut(usize, usize, &Point<N>),
+) {
     let mut sorted = *corners;
     sorted.sort_by(|a, b| a[Y].total_cmp(&b[Y]));
     let [top, middle, bottom] = sorted;
@@ -36,21 +43,21 @@ pub fn walk(corners: &[Point; 3], width: u32, height: u32, mut visit: impl FnMut
 }
 
 /// The whole coordinates from `from` up to before `to` along one axis, clipped to `0..limit`.
-struct Walk {
-    point: Point,
-    step: Point,
+struct Walk<const N: usize> {
+    point: Point<N>,
+    step: Point<N>,
     at: f64,
     end: f64,
 }
 
-impl Walk {
-    fn new(from: &Point, to: &Point, axis: usize, limit: u32) -> Self {
+impl<const N: usize> Walk<N> {
+    fn new(from: &Point<N>, to: &Point<N>, axis: usize, limit: u32) -> Self {
         let at = from[axis].ceil().max(0.0);
         let end = to[axis].min(f64::from(limit));
         let span = to[axis] - from[axis];
         let mut step = *from;
         let mut point = *from;
-        for i in 0..point.len() {
+        for i in 0..N {
             step[i] = (to[i] - from[i]) / span;
             point[i] = from[i] + step[i] * (at - from[axis]);
         }
@@ -58,8 +65,8 @@ impl Walk {
     }
 }
 
-impl Iterator for Walk {
-    type Item = (usize, Point);
+impl<const N: usize> Iterator for Walk<N> {
+    type Item = (usize, Point<N>);
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.at < self.end {

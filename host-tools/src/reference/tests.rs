@@ -1,6 +1,10 @@
 //! The rules of formats/hw2.md section 5 on hand cases.
 
+use super::material::Source;
+use super::matrix::Vector;
+use super::vertex::Given;
 use super::*;
+use crate::backend::{BackEnd, Patch, Surface, Vertex};
 
 const WHITE: Surface = Surface::Flat([1.0; 3]);
 
@@ -8,6 +12,8 @@ fn vertex(position: Vector) -> Vertex {
     Vertex {
         position,
         color: [1.0; 3],
+        normal: None,
+        texcoord: [0.0; 2],
     }
 }
 
@@ -161,14 +167,155 @@ fn matrices_compose_as_the_text_says() {
     let mut reference = Reference::new(4, 4);
     reference.rotate(90.0, [0.0, 0.0, 1.0]).unwrap();
     reference.translate([1.0, 0.0, 0.0]).unwrap();
-    let corner = reference.eye_corner(&vertex([0.0, 0.0, 0.0, 1.0]), [1.0; 3]);
-    assert!(corner.eye[0].abs() < 1e-15 && (corner.eye[1] - 1.0).abs() < 1e-15);
+    let seen = |reference: &Reference, p: Vector| {
+        let material = reference.material(WHITE).unwrap();
+        reference.placed(&Given::of(&vertex(p)), &material).corner.eye
+    };
+    let eye = seen(&reference, [0.0, 0.0, 0.0, 1.0]);
+    assert!(eye[0].abs() < 1e-15 && (eye[1] - 1.0).abs() < 1e-15);
     // The eye goes to the origin and the center to -z; both are divided by their w.
     reference
         .look_at([2.0, 0.0, 0.0, 2.0], [8.0, 0.0, 0.0, 2.0], [0.0, 1.0, 0.0])
         .unwrap();
-    let seen = |p: Vector| reference.eye_corner(&vertex(p), [1.0; 3]).eye;
-    assert_eq!(seen([1.0, 0.0, 0.0, 1.0]), [0.0, 0.0, 0.0, 1.0]);
-    assert_eq!(seen([4.0, 0.0, 0.0, 1.0]), [0.0, 0.0, -3.0, 1.0]);
-    assert_eq!(seen([1.0, 0.0, 2.0, 1.0]), [2.0, 0.0, 0.0, 1.0]);
+    assert_eq!(seen(&reference, [1.0, 0.0, 0.0, 1.0]), [0.0, 0.0, 0.0, 1.0]);
+    assert_eq!(seen(&reference, [4.0, 0.0, 0.0, 1.0]), [0.0, 0.0, -3.0, 1.0]);
+    assert_eq!(seen(&reference, [1.0, 0.0, 2.0, 1.0]), [2.0, 0.0, 0.0, 1.0]);
+}
+
+/// A white sun's light on a triangle in front of the viewer, whose corners run counter-clockwise or not and have normals.
+fn lit(surface: Surface, clockwise: bool, normals: [Option<[f64; 3]>; 3], prepare: impl Fn(&mut Reference)) -> f64 {
+    let mut corners = everything(0.5);
+    if !clockwise {
+        corners.swap(1, 2);
+    }
+    for (corner, normal) in corners.iter_mut().zip(normals) {
+        corner.normal = normal;
+    }
+    let picture = drawn(|r| {
+        r.sun([0.0, 0.0, -5.0], [1.0; 3]).unwrap();
+        prepare(r);
+        r.triangle(1, corners, surface).unwrap();
+    });
+    let red = picture.pixels[0].color[0];
+    assert!(picture.pixels.iter().all(|p| (p.color[0] - red).abs() < 1e-12));
+    (red * 1e12).round() / 1e12
+}
+
+const SLANTED: Option<[f64; 3]> = Some([3.0, 0.0, -4.0]);
+
+#[test]
+fn a_triangle_with_a_vertex_without_normal_uses_its_own() {
+    let plain = |_: &mut Reference| {};
+    for surface in [WHITE, Surface::Gouraud] {
+        assert_eq!(lit(surface, false, [SLANTED; 3], plain), 0.8);
+        assert_eq!(lit(surface, false, [SLANTED, SLANTED, None], plain), 1.0);
+        // (B - A) x (C - A) of corners that run clockwise on the screen points away from the viewer.
+        assert_eq!(lit(surface, true, [None; 3], plain), 0.0);
+    }
+}
+
+#[test]
+fn flatnormals_are_for_flat_surfaces() {
+    let flat = |r: &mut Reference| r.flat_normals();
+    assert_eq!(lit(WHITE, false, [SLANTED; 3], flat), 1.0);
+    assert_eq!(lit(Surface::Gouraud, false, [SLANTED; 3], flat), 0.8);
+}
+
+#[test]
+fn normals_and_lights_turn_with_the_directions_matrix() {
+    let squeezed = |r: &mut Reference| r.scale([0.5, 1.0, 1.0]).unwrap();
+    // The normal (3, 0, -4) becomes (6, 0, -4); a triangle half as wide still covers what it covered of the picture.
+    let expected = (4.0 / 52f64.sqrt() * 1e12).round() / 1e12;
+    let mut wide = Reference::new(1, 1);
+    squeezed(&mut wide);
+    let placed = |r: &Reference| {
+        let given = Given::of(&Vertex {
+            normal: SLANTED,
+            ..vertex([1.0, 0.0, 0.0, 2.0])
+        });
+        r.placed(&given, &r.material(WHITE).unwrap()).corner.at
+    };
+    assert_eq!(placed(&wide).normal, [0.0; 3], "nobody asks without light");
+    wide.sun([1.0, 0.0, 0.0], [1.0; 3]).unwrap();
+    wide.bulb([2.0, 4.0, 6.0, 2.0], [1.0; 3]).unwrap();
+    let at = placed(&wide);
+    assert!((-at.normal[2] - expected).abs() < 1e-11);
+    assert_eq!(at.eye, [0.25, 0.0, 0.0]);
+    assert_eq!(wide.lights[0].source, Source::Sun([1.0, 0.0, 0.0]));
+    assert_eq!(wide.lights[1].source, Source::Bulb([0.5, 2.0, 3.0]));
+}
+
+#[test]
+fn lights_shine_on_what_is_drawn_after_them() {
+    let picture = drawn(|r| {
+        let halves = [everything(0.5), everything(0.25)];
+        r.triangle(1, halves[0], WHITE).unwrap();
+        r.sun([0.0, 0.0, 1.0], [0.5; 3]).unwrap();
+        r.clip_plane([1.0, 0.0, 0.0, 0.0]).unwrap();
+        r.triangle(2, halves[1], WHITE).unwrap();
+    });
+    let row: Vec<f64> = picture.pixels[..4].iter().map(|p| p.color[0]).collect();
+    assert_eq!(row, [1.0, 1.0, 0.5, 0.5]);
+}
+
+#[test]
+fn texture_coordinates_are_perspective_correct() {
+    // Four texels in a row, red 0, 10, 20, 30; s from 0 at the left to 1 at 8 px, where w is 3.
+    let texture = Arc::new(Picture::new(4, 1, (0..4).map(|i| [10 * i, 0, 0, 255]).collect()));
+    let mut corners = everything(0.5);
+    corners[1].position = corners[1].position.map(|c| 3.0 * c);
+    corners[1].texcoord = [1.0, 0.0];
+    let picture = drawn(|r| {
+        assert!(r.triangle(1, corners, Surface::Textured).is_err(), "no texture yet");
+        r.texture(&texture).unwrap();
+        r.triangle(1, corners, Surface::Textured).unwrap();
+    });
+    // At x/8 = a: s = (a/3) / (1 - 2a/3), so 0, 1/22, 1/10, 1/6; texel 1 begins at 1/8.
+    let reds: Vec<u8> = picture.bytes()[..4].iter().map(|p| p[0]).collect();
+    assert_eq!(reds, [0, 0, 0, 10]);
+}
+
+/// A flat square patch over the whole picture, seen from in front if s and t run like x and y.
+fn patch(z: f64) -> [Vertex; 16] {
+    std::array::from_fn(|k| {
+        let [x, y] = [k % 4, k / 4].map(|c| c as f64 * 1.5 - 1.0);
+        Vertex {
+            normal: SLANTED,
+            ..vertex([x, y, z, 1.0])
+        }
+    })
+}
+
+#[test]
+fn a_patch_draws_numbered_triangles_without_gaps() {
+    let picture = drawn(|r| r.patch(5, 1, Patch::Rectangular(&patch(0.5)), WHITE).unwrap());
+    let numbers: Vec<u32> = picture.polygons.iter().map(|p| p.primitive).collect();
+    assert_eq!(numbers, (5..13).collect::<Vec<_>>());
+    assert!(picture.pixels.iter().all(|p| (5..13).contains(&p.primitive)));
+    assert!(picture.polygons[0].outer.iter().all(|c| c.reach < 0.003));
+}
+
+#[test]
+fn a_lit_patch_has_its_own_normals() {
+    let shade = |direction: f64, points: [Vertex; 16], flat: bool| {
+        let picture = drawn(|r| {
+            r.sun([0.0, 0.0, direction], [1.0; 3]).unwrap();
+            if flat {
+                r.flat_normals();
+            }
+            r.patch(1, 1, Patch::Rectangular(&points), WHITE).unwrap();
+        });
+        picture.pixels[0].color[0]
+    };
+    // d/ds x d/dt with y down points away from the viewer, whatever the vertices' normals.
+    assert_eq!(shade(1.0, patch(0.5), false), 1.0);
+    assert_eq!(shade(-1.0, patch(0.5), false), 0.0);
+    // A hill, its border flat: the normal at the corner is (1.5, 1.5, -0.5) x (-1.5, 1.5, 0), the first triangle's is not.
+    let mut hill = patch(0.5);
+    for k in [5, 6, 9, 10] {
+        hill[k].position[2] = 0.0;
+    }
+    let (smooth, flat) = (shade(1.0, hill, false), shade(1.0, hill, true));
+    let expected = 4.5 / (0.75f64.powi(2) * 2.0 + 4.5f64.powi(2)).sqrt();
+    assert!((smooth - expected).abs() < 1e-15 && flat == 1.0, "{smooth} {flat}");
 }

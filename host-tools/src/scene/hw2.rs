@@ -3,19 +3,30 @@
 //! Commands are checked in file order and their arguments from left to right, so that the fault reported is the
 //! first one in the text.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
+use std::sync::Arc;
+
+use crate::files;
 
 use super::arguments::{Arguments, quoted};
 use super::lex::{self, Line};
 use super::view::{self, WRow};
 use super::{Action, Command, Fault, Fill, LONGEST_SIDE, MOST_PIXELS, Place, Scene};
 
-/// Parses a scene; textures are looked for in `folder`.
+/// Parses a scene; textures are looked for in `folder`, and may have [`MOST_PIXELS`] in all.
 pub fn parse(text: impl AsRef<[u8]>, folder: &Path) -> Result<Scene, Fault> {
-    parse_with(text.as_ref(), &mut |name| {
-        crate::files::check_texture(&folder.join(name))
-    })
+    let mut textures = BTreeMap::new();
+    let mut room = MOST_PIXELS;
+    let mut scene = parse_with(text.as_ref(), &mut |name| {
+        let texture = files::read_texture(&folder.join(name))?;
+        room = (room.checked_sub(texture.pixels.len() as u64))
+            .ok_or_else(|| format!("too large: with it, the scene's textures are more than {MOST_PIXELS} pixels"))?;
+        textures.insert(name.to_owned(), Arc::new(texture));
+        Ok(())
+    })?;
+    scene.textures = textures;
+    Ok(scene)
 }
 
 /// Parses a scene; `check_texture` says what is wrong with the texture of a name, and is asked once for each.
@@ -62,6 +73,7 @@ fn picture(line: Option<Line<'_>>) -> Result<Scene, Fault> {
         height,
         output: arguments.file_name()?,
         commands: Vec::new(),
+        textures: BTreeMap::new(),
     })
 }
 

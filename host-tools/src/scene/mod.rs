@@ -6,7 +6,11 @@
 //!
 //! A [`Scene`] is valid by construction: whoever holds one need not check a range, an index or a file name again.
 
+use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::Arc;
+
+use crate::picture::Picture;
 
 pub mod arguments;
 pub mod format;
@@ -17,7 +21,7 @@ mod view;
 
 /// The longest side of a picture or texture, in pixels.
 pub const LONGEST_SIDE: u32 = 1 << 14;
-/// The most pixels of a picture or texture.
+/// The most pixels of a picture, and of all textures of a scene together.
 pub const MOST_PIXELS: u64 = 1 << 26;
 
 /// Where something stands in a text, both counted from 1; columns count characters, a tab is one.
@@ -73,6 +77,8 @@ pub struct Scene {
     pub output: String,
     /// The commands in file order, without `png`.
     pub commands: Vec<Command>,
+    /// The textures it names, by name; empty where the text was parsed without its folder.
+    pub textures: BTreeMap<String, Arc<Picture>>,
 }
 
 /// One command and the place of its keyword.
@@ -106,7 +112,7 @@ pub enum Action {
     Normal([f64; 3]),
     /// `texcoord`.
     TexCoord([f64; 2]),
-    /// `texture`: the file's name, relative to the scene's folder, checked to exist.
+    /// `texture`: the file's name, relative to the scene's folder.
     Texture(String),
     /// `trif`, `trig`, `trit`.
     Triangle(Fill, [usize; 3]),

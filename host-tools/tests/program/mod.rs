@@ -34,11 +34,29 @@ impl Folder {
 
     /// Runs the program in the folder, with arguments separated by spaces.
     pub fn run(&self, arguments: &str) -> Run {
-        let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_host-render"))
-            .current_dir(self.0.path())
-            .args(arguments.split_whitespace())
-            .output()
-            .expect("the program starts");
+        self.finish(Command::new(env!("CARGO_BIN_EXE_host-render")).args(arguments.split_whitespace()))
+    }
+
+    /// As [`run`](Self::run), with so many bytes of address space in all, where a shell can set that. One thread and one
+    /// pool of memory, since every further one reserves 64 MiB of addresses that it may never use.
+    #[allow(dead_code)]
+    pub fn run_within(&self, bytes: usize, arguments: &str) -> Run {
+        if !cfg!(target_os = "linux") {
+            return self.run(arguments);
+        }
+        let limited = format!("ulimit -v {} && exec \"$0\" \"$@\"", bytes >> 10);
+        self.finish(
+            Command::new("sh")
+                .args(["-c", &limited, env!("CARGO_BIN_EXE_host-render")])
+                .args(arguments.split_whitespace())
+                .env("RAYON_NUM_THREADS", "1")
+                .env("MALLOC_ARENA_MAX", "1"),
+        )
+    }
+
+    fn finish(&self, command: &mut Command) -> Run {
+        let Output { status, stdout, stderr } =
+            command.current_dir(self.0.path()).output().expect("the program starts");
         Run {
             code: status.code(),
             out: String::from_utf8(stdout).expect("UTF-8"),

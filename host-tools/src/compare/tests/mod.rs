@@ -2,12 +2,14 @@
 //! path of these scenes being exact but for 10⁻¹⁴ px.
 
 mod coverage;
+mod lit;
+mod textured;
 mod values;
 mod whole;
 
 use super::picture::{FixedPicture, Pixel};
 use super::stated::SNAP;
-use super::{Class, compare};
+use super::{Class, Comparison, compare};
 use crate::backend::{BackEnd, Surface, Vertex};
 use crate::reference::{Reference, Rendered};
 
@@ -30,6 +32,8 @@ fn projective(x: f64, y: f64, z: f64, w: f64) -> Vertex {
     Vertex {
         position,
         color: [1.0; 3],
+        normal: None,
+        texcoord: [0.0; 2],
     }
 }
 

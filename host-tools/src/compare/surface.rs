@@ -1,0 +1,213 @@
+//! What the core may show at one sample of a piece, whatever its material: interpolated colours, texels, decals, lights.
+
+use std::cmp::Reverse;
+
+use super::direction::Direction;
+use super::interval::Interval;
+use super::lighting::{Errors, Place, Sum, brightest, sums};
+use super::linear::Range;
+use super::piece::Piece;
+use super::stated::{COLOR_LEVELS, LIT, LIT_LEVELS, LIT_SURFACE, UNIT_VECTOR, UNITS};
+use super::texels::{Texels, blended};
+use crate::reference::attributes::Bounds;
+use crate::reference::byte;
+use crate::reference::log::Corner;
+use crate::reference::material::{Fill, Material, Source};
+
+/// Whether a colour can be a surface's; the better, the greater.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// It cannot.
+    Differs,
+    /// Only by a steep power's error, or if a light is switched.
+    Steep,
+    /// 1/w is within its bound of 0: it may be anything.
+    Pole,
+    /// It is that of another texel within reach.
+    Texel,
+    /// It is. The number is how many levels it lies beyond what moving the corners by δ makes of the value.
+    Colour(Reverse<u8>),
+}
+
+/// A sample, and what to look for.
+#[derive(Debug, Clone, Copy)]
+pub struct Sight {
+    /// The sample in px.
+    pub sample: [f64; 2],
+    /// The core's red, green and blue.
+    pub fixed: [u8; 3],
+    /// The reference's own unrounded colour, if it is the same surface's.
+    pub known: Option<[f64; 3]>,
+}
+
+/// A surface at a sample.
+struct Look<'a> {
+    sight: &'a Sight,
+    /// The interpolated colour, or the one of a flat surface.
+    color: Range<3>,
+    /// The core's arithmetic with colours, counted in `color` and to be counted again for texels.
+    rounding: f64,
+    /// Rounding of a lit colour.
+    unit: f64,
+    /// The light without the core's errors and with them; none if the surface is not lit.
+    light: Option<(Sum, Vec<Sum>)>,
+}
+
+/// Whether anything of the material changes from fragment to fragment.
+pub fn varies(material: &Material) -> bool {
+    !matches!(material.fill, Fill::Flat(_)) || material.is_lit() && (turns(material) || has_place(material))
+}
+
+/// Judges a colour.
+pub fn verdict(piece: &Piece<'_>, sight: &Sight) -> Verdict {
+    look(piece, sight).unwrap_or(Verdict::Pole)
+}
+
+/// None is a pole.
+fn look(piece: &Piece<'_>, sight: &Sight) -> Option<Verdict> {
+    let material = piece.material();
+    let rounding = rounding(piece);
+    let look = Look {
+        sight,
+        color: color(piece, sight, rounding)?,
+        rounding,
+        unit: LIT / 255.0 * brightest(&material.lights) * piece.greatest(|c| c.color).max(1.0),
+        light: if material.is_lit() {
+            Some(light(piece, sight)?)
+        } else {
+            None
+        },
+    };
+    let Some(texture) = material.texture() else {
+        return Some(look.judged(&look.color, true));
+    };
+    let coordinates = piece.values(sight.sample, |c| c.at.texcoord, None, 0.0)?;
+    let texels = Texels::new(texture, &coordinates, lowering(piece, |e| e.texcoord));
+    let candidate = |(texel, own): ([u8; 4], bool)| {
+        let [r, g, b, alpha] = texel;
+        let mut surface = blended([r, g, b, if material.decals { alpha } else { 255 }], &look.color);
+        surface.full = surface.full.map(|f| f.widened(look.rounding));
+        look.judged(&surface, own)
+    };
+    texels.all().map(candidate).max()
+}
+
+fn turns(material: &Material) -> bool {
+    material.flat_normal.is_none()
+}
+
+/// Whether the eye position counts.
+fn has_place(material: &Material) -> bool {
+    let bulb = material
+        .lights
+        .iter()
+        .any(|light| matches!(light.source, Source::Bulb(_)));
+    bulb || material.shininess > 0.0
+}
+
+/// The largest error that some value has before it is interpolated.
+fn lowering(piece: &Piece<'_>, of: fn(&Bounds) -> f64) -> f64 {
+    UNITS * piece.greatest(|c| [of(&c.at_error)])
+}
+
+/// What the core rounds colours to, in proportion to the largest, or to full if that is less.
+fn rounding(piece: &Piece<'_>) -> f64 {
+    let levels = if piece.material().is_lit() {
+        LIT_SURFACE
+    } else {
+        COLOR_LEVELS
+    };
+    levels / 255.0 * piece.greatest(|c| c.color).max(1.0)
+}
+
+/// The surface's colour before textures and lights.
+fn color(piece: &Piece<'_>, sight: &Sight, rounding: f64) -> Option<Range<3>> {
+    let material = piece.material();
+    let of = |c: &Corner| c.color;
+    let lowering = rounding + lowering(piece, |e| e.color);
+    match material.fill {
+        Fill::Flat(color) => Some(Range::constant(color, lowering)),
+        Fill::Textured(_) if !material.decals => Some(Range::constant([0.0; 3], 0.0)),
+        Fill::Gouraud if !material.is_lit() => piece.values(sight.sample, of, sight.known, lowering),
+        Fill::Gouraud | Fill::Textured(_) => piece.values(sight.sample, of, None, lowering),
+    }
+}
+
+/// The light without the core's errors, switched as it is, and all that it may be with them.
+fn light(piece: &Piece<'_>, sight: &Sight) -> Option<(Sum, Vec<Sum>)> {
+    let material = piece.material();
+    let normal = match material.flat_normal {
+        Some(normal) => Range::constant(normal, material.flat_normal_error + UNIT_VECTOR),
+        None => piece.values(sight.sample, |c| c.at.normal, None, lowering(piece, |e| e.normal))?,
+    };
+    let unit = lowering(piece, |e| e.eye);
+    let eye = if has_place(material) {
+        piece.values(sight.sample, |c| c.at.eye, None, unit)?
+    } else {
+        Range::constant([0.0; 3], 0.0)
+    };
+    let place = |normal: Direction, eye: [Interval; 3]| Place {
+        normal,
+        eye,
+        unit,
+        shininess: material.shininess,
+    };
+    let exact = sums(
+        &material.lights,
+        &place(Direction::within(normal.moved), eye.moved),
+        Errors::None,
+    );
+    let core = sums(
+        &material.lights,
+        &place(Direction::within(normal.full), eye.full),
+        Errors::Core,
+    );
+    Some((*exact.first()?, core))
+}
+
+impl Look<'_> {
+    /// Judges the colour for one surface colour; `own` is whether that is the reference's texel.
+    fn judged(&self, surface: &Range<3>, own: bool) -> Verdict {
+        let Some((exact, core)) = &self.light else {
+            return self.found(surface.moved, surface.full, own).unwrap_or(Verdict::Differs);
+        };
+        let moved = exact.color(surface.moved);
+        let near = moved.map(|m| m.widened(LIT_LEVELS / 255.0));
+        let mut verdict = Verdict::Differs;
+        for (i, sum) in core.iter().enumerate() {
+            let full = sum.color(surface.full).map(|f| f.widened(self.unit));
+            if !self.fits(full) {
+                continue;
+            }
+            // The first sum has every light on or off as it is.
+            let both = [0, 1, 2].map(|c| full[c].clamped(near[c]));
+            let calm = if i == 0 { self.found(moved, both, own) } else { None };
+            verdict = verdict.max(calm.unwrap_or(Verdict::Steep));
+        }
+        verdict
+    }
+
+    /// *Colour* or *texel*, if the colour lies in `all`. The reference's own must too, or it chose another texel.
+    fn found(&self, moved: [Interval; 3], all: [Interval; 3], own: bool) -> Option<Verdict> {
+        if !self.fits(all) {
+            return None;
+        }
+        let holds = |known: [f64; 3]| (all.iter().zip(known)).all(|(a, k)| a.low <= k && k <= a.high);
+        let reference_too = self.sight.known.is_none_or(holds);
+        let beyond = moved.iter().zip(self.sight.fixed).map(|(m, level)| {
+            let below = byte(m.low).saturating_sub(level);
+            below.max(level.saturating_sub(byte(m.high)))
+        });
+        let beyond = beyond.max().unwrap_or(0);
+        Some(if own && reference_too {
+            Verdict::Colour(Reverse(beyond))
+        } else {
+            Verdict::Texel
+        })
+    }
+
+    fn fits(&self, colors: [Interval; 3]) -> bool {
+        let mut pairs = colors.iter().zip(self.sight.fixed);
+        pairs.all(|(c, level)| (byte(c.low)..=byte(c.high)).contains(&level))
+    }
+}

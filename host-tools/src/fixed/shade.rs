@@ -1,0 +1,230 @@
+//! Picks the fragment program for a triangle: the one that carries no more than it needs.
+
+use fixel::fragment::{Flat, Fragment};
+use fixel::light::{Finish, Lit, Matte};
+use fixel::num::Word;
+use fixel::texture::{Rgba8888, Texture};
+
+use super::Pixel;
+use super::canvas::Canvas;
+use super::corner::{self, Corner};
+use super::lamps::{AtScale, BULBS, Lamps};
+use super::material::{
+    Decal, Gouraud, Interpolated, Plain, Polished, Same, Sampler, Surface, Textured, UnderLight, Unlit, Vector, pixel,
+};
+
+/// A triangle's surface.
+#[derive(Clone, Copy)]
+pub enum Paint<'t> {
+    /// One colour.
+    Plain([i32; 3]),
+    /// The corners' colours.
+    Gouraud,
+    /// A texture.
+    Textured(Texture<'t, Rgba8888>),
+    /// A texture over the corners' colours.
+    Decal(Texture<'t, Rgba8888>),
+}
+
+/// How triangles look, apart from their corners.
+#[derive(Clone, Copy)]
+pub struct Look<'a> {
+    /// The surface.
+    pub paint: Paint<'a>,
+    /// Colours are in units of 2^(shift − 16) levels.
+    pub shift: i32,
+    /// Whether the triangle's own perpendicular is its normal, whatever its corners have.
+    pub flat_normal: bool,
+    /// Units of 2^-16; `None` without highlights.
+    pub shininess: Option<u32>,
+}
+
+/// A triangle in work.
+struct Work<'a, W> {
+    canvas: &'a mut Canvas<W>,
+    look: Look<'a>,
+    corners: &'a [Corner; 3],
+    primitive: u32,
+    /// `None` for a surface in its own colours.
+    light: Option<Light<'a>>,
+}
+
+/// What light needs to know of a triangle.
+#[derive(Clone, Copy)]
+struct Light<'a> {
+    lit: &'a Lit<'a, BULBS>,
+    lamps: &'a Lamps,
+    /// `None` to interpolate the corners'.
+    flat_normal: Option<[i32; 3]>,
+    /// The corners', at the scale of `lit`.
+    places: [[i32; 3]; 3],
+}
+
+impl<'a> Light<'a> {
+    fn new(lights: &'a mut AtScale<'_>, flat_normal: bool, corners: &[Corner; 3]) -> Option<Self> {
+        let lamps = lights.lamps();
+        if lamps.is_empty() {
+            return None;
+        }
+        let places = corners.map(|c| corner::place(c.eye));
+        let own = flat_normal || corners.iter().any(|c| c.normal.is_none());
+        let flat_normal = own.then(|| corner::perpendicular(places));
+        let (places, exponent) = corner::in_own_unit(places);
+        Some(Light {
+            lit: lights.lit(exponent),
+            lamps,
+            flat_normal,
+            places,
+        })
+    }
+}
+
+/// Draws one triangle.
+///
+/// # Errors
+/// Where its texture coordinates do not fit.
+pub fn triangle<W: Word>(
+    canvas: &mut Canvas<W>,
+    look: Look<'_>,
+    lights: &mut AtScale<'_>,
+    corners: &[Corner; 3],
+    primitive: u32,
+) -> Result<(), String> {
+    let work = Work {
+        canvas,
+        look,
+        corners,
+        primitive,
+        light: Light::new(lights, look.flat_normal, corners),
+    };
+    let colors = corners.map(|c| c.color);
+    match look.paint {
+        Paint::Plain(color) => work.plain(color),
+        Paint::Gouraud => work.surface::<_, 3, 6, 9>(Gouraud, colors),
+        Paint::Textured(texture) => {
+            let (st, sampler) = sampler(texture, corners)?;
+            work.surface::<_, 2, 5, 8>(Textured(sampler), st);
+        }
+        Paint::Decal(texture) => {
+            let (st, sampler) = sampler(texture, corners)?;
+            let shift = look.shift.unsigned_abs();
+            let mut st = st.into_iter();
+            let carried = colors.map(|[r, g, b]| {
+                let [s, t] = st.next().unwrap_or_default();
+                [r, g, b, s, t]
+            });
+            work.surface::<_, 5, 8, 11>(Decal { sampler, shift }, carried);
+        }
+    }
+    Ok(())
+}
+
+/// The corners' coordinates in texels, and what looks them up.
+fn sampler<'t>(texture: Texture<'t, Rgba8888>, corners: &[Corner; 3]) -> Result<([[i32; 2]; 3], Sampler<'t>), String> {
+    let (st, fraction_bits) = corner::texels(corners, [texture.width(), texture.height()])?;
+    Ok((st, Sampler::new(texture, fraction_bits)))
+}
+
+impl<W: Word> Work<'_, W> {
+    /// One colour. Unlit, or lit by suns only and flat, it is the same everywhere.
+    fn plain(self, color: [i32; 3]) {
+        match self.light {
+            Some(light) => self.lit::<_, 0, 3, 6>(light, Plain(color), [[]; 3]),
+            None => {
+                let pixel = pixel(color.map(i64::from), self.look.shift, self.primitive);
+                self.flat(pixel);
+            }
+        }
+    }
+
+    fn flat(self, pixel: Pixel) {
+        self.canvas.draw(self.corners.map(|c| c.eye), [(); 3], &Flat(pixel));
+    }
+
+    /// A surface whose corners carry A values; B are 3 more, C are 6 more.
+    fn surface<S: Surface, const A: usize, const B: usize, const C: usize>(self, surface: S, carried: [[i32; A]; 3]) {
+        if let Some(light) = self.light {
+            return self.lit::<S, A, B, C>(light, surface, carried);
+        }
+        let program = Unlit::<S, A> {
+            surface,
+            shift: self.look.shift,
+            primitive: self.primitive,
+        };
+        self.canvas.draw(self.corners.map(|c| c.eye), carried, &program);
+    }
+
+    /// The same under lights.
+    fn lit<S, const A: usize, const B: usize, const C: usize>(
+        self,
+        light: Light<'_>,
+        surface: S,
+        carried: [[i32; A]; 3],
+    ) where
+        S: Surface,
+    {
+        let (here, nowhere) = (Interpolated, Same([0; 3]));
+        let shift = self.look.shift;
+        let polish = |exponent| Polished::new(exponent, shift);
+        match (
+            self.look.shininess,
+            light.flat_normal.map(Same),
+            light.lamps.has_bulbs(),
+        ) {
+            (Some(a), Some(own), _) => self.run::<_, _, _, _, A, B>(light, carried, surface, own, here, polish(a)),
+            (Some(a), None, _) => {
+                self.run::<_, _, _, _, A, C>(light, carried, surface, Interpolated, here, polish(a));
+            }
+            (None, Some(own), true) => self.run::<_, _, _, _, A, B>(light, carried, surface, own, here, Matte),
+            (None, None, true) => self.run::<_, _, _, _, A, C>(light, carried, surface, Interpolated, here, Matte),
+            (None, Some(own), false) => self.run::<_, _, _, _, A, A>(light, carried, surface, own, nowhere, Matte),
+            (None, None, false) => {
+                self.run::<_, _, _, _, A, B>(light, carried, surface, Interpolated, nowhere, Matte);
+            }
+        }
+    }
+
+    /// Draws with one program: the corners carry the surface's A values and what else the program takes, K in all.
+    fn run<S, N, P, F, const A: usize, const K: usize>(
+        self,
+        light: Light<'_>,
+        carried: [[i32; A]; 3],
+        surface: S,
+        normal: N,
+        place: P,
+        finish: F,
+    ) where
+        S: Surface,
+        N: Vector,
+        P: Vector,
+        F: Finish,
+    {
+        let program = UnderLight::<S, N, P, F, K> {
+            surface,
+            normal,
+            place,
+            finish,
+            lit: light.lit,
+            shift: self.look.shift.saturating_add(light.lamps.shift()),
+            primitive: self.primitive,
+        };
+        if K == 0 {
+            let pixel = program.shade([0; K], Pixel::default());
+            return self.flat(pixel.unwrap_or_default());
+        }
+        let values = std::array::from_fn(|i| {
+            let normal: &[i32] = match (light.flat_normal, &self.corners[i].normal) {
+                (None, Some(normal)) => normal,
+                _ => &[],
+            };
+            joined([&carried[i], normal, &light.places[i]])
+        });
+        self.canvas.draw(self.corners.map(|c| c.eye), values, &program);
+    }
+}
+
+/// The first K of all the values.
+fn joined<const K: usize>(parts: [&[i32]; 3]) -> [i32; K] {
+    let mut values = parts.into_iter().flatten();
+    std::array::from_fn(|_| values.next().copied().unwrap_or_default())
+}
