@@ -8,15 +8,14 @@
 //! the second term only for a [`Shiny`] surface. A sun's l is fixed, a bulb's is unit(b − p), and unit(0) is 0. A
 //! light with c ≤ 0 adds nothing at all. There is no ambient light, no fading with distance and no shadow.
 //!
-//! **Colours** are in units of 2^-16 of full, all of `i32`: ±2^15 of full. Nothing is clamped but the result, to that range:
-//! the sums are kept in 64 bits. Addition of integers commutes, so the order of lights does not matter to a bit. For
-//! still brighter lights give all light colours in a larger unit; the result is then in that unit too.
+//! **Colours** are in units of 2^-16 of full, all of `i32`: ±2^15 of full. Nothing is clamped but the result, to that
+//! range: the sums are kept in 64 bits. Addition of integers commutes, so the order of lights does not matter to a bit.
+//! For still brighter lights give all light colours in a larger unit; the result is then in that unit too.
 //!
 //! **Error** against exact arithmetic, from the integers given: of c at most 6·2^-30, of k = n·h at most
 //! (4 + 5/|l + unit(−p)|)·2^-30; of k^a what that makes of it and 3·2^-30 of its own; each times the light; and 1 unit
 //! of the result (`tests/lighting.rs`). A hundred lights of colours −2…3 with a = 240 stay within 1/100 of a level of
-//! 255. Where c or
-//! |l + unit(−p)| is 0 but for its error, a highlight is either there or not: it begins with a jump.
+//! 255. Where c or |l + unit(−p)| is 0 but for its error, a highlight is either there or not: it begins with a jump.
 //!
 //! **Cost**: without a [`Shiny`] surface there is no code for highlights, with room for 0 bulbs none for bulbs.
 //!

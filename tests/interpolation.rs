@@ -17,7 +17,7 @@ use fixel::view::{Carried, Cull, Vertex, View};
 use fixel::viewport::Viewport;
 use fixel::window::Window;
 use proptest::prelude::*;
-use triangles::{Case, Keep, Triangle, cases, positions, stated_error, values};
+use triangles::{Case, Keep, Triangle, cases, fine_error, positions, stated_error, values};
 
 fn triangle<V>(case: &Case, varyings: [V; 3]) -> Triangle<V> {
     Triangle { corners: case.corners, depths: [0; 3], varyings }
@@ -37,33 +37,39 @@ fn check_linear<W: Word>(case: &Case, corner: [i32; 3]) -> Result<(), TestCaseEr
     Ok(())
 }
 
-/// The exact value at a pixel of what is `values` at corners with 1/w `inverses`: numerator, denominator, both positive
-/// denominators for inverses of one sign. And the largest inverse over the pixel's.
+/// The exact value at a pixel of what is `values` at corners with 1/w `inverses`: numerator and denominator. And the
+/// largest inverse over the pixel's.
 fn exact_perspective(case: &Case, values: [i32; 3], inverses: [i32; 3], (x, y): (i32, i32)) -> (i128, i128, f64) {
     let over_w = [0, 1, 2].map(|i| values[i] as i64 * inverses[i] as i64);
     let (numerator, area) = naive::value(case.corners, over_w, x, y);
     let (inverse, _) = naive::value(case.corners, inverses.map(i64::from), x, y);
     let largest = inverses.iter().map(|i| i.abs()).max().unwrap();
-    (numerator, inverse, largest as f64 * area as f64 / inverse as f64)
+    (numerator, inverse, largest as f64 * area as f64 / inverse.abs() as f64)
 }
 
 fn check_perspective<W: Word>(case: &Case, corner: [i32; 3], inverses: [i32; 3]) -> Result<(), TestCaseError> {
     let (least, most) = (*corner.iter().min().unwrap(), *corner.iter().max().unwrap());
-    let largest = corner.iter().map(|v| v.abs()).max().unwrap();
+    let largest = corner.iter().map(|v| v.abs()).max().unwrap() as f64;
     let shape = triangle(case, [0, 1, 2].map(|i| Perspective::new([corner[i]], inverses[i])));
     for (at, [value]) in values::<W, _>(&shape, case.window) {
         prop_assert!((least..=most).contains(&value), "{} is out of {}..={}", value, least, most);
         let (numerator, inverse, rho) = exact_perspective(case, corner, inverses, at);
-        let error = (value as i128 * inverse - numerator) as f64 / inverse as f64;
-        let stated = 2f64.powi(-26) * rho * largest as f64 + 2.0;
-        let gentle = [shape.varyings.map(|p| p.over_w[0]), inverses].map(|v| stated_error(case.corners, v.map(i64::from), at));
-        track(W::GUARD > 5000, error.abs() / stated, gentle, case, corner, inverses);
+        let error = ((value as i128 * inverse - numerator) as f64 / inverse as f64).abs();
+        let over_w = shape.varyings.map(|p| p.over_w[0]);
+        let fine = [over_w, inverses].map(|v| fine_error(case.corners, v.map(i64::from), at));
+        let [Some(fine_over_w), Some(fine_inverse)] = fine else { continue };
+        // Half a unit for the rounding of value/w at the corners; 1/w may be too small by its own error.
+        let one = (1 << 30) as f64;
+        let pixel = one / rho - fine_inverse;
+        let bound = one / pixel * (fine_over_w + 0.5 + fine_inverse * largest / one) + 2.0;
+        prop_assert!(pixel < fine_inverse || error <= bound, "{:?} is {} off, not {}", at, error, bound);
+        track(W::GUARD > 5000, error/bound, error, bound, case, corner, inverses);
     }
     Ok(())
 }
-fn track(wide: bool, error: f64, gentle: [Option<f64>; 2], case: &Case, d: [i32; 3], inv: [i32; 3]) {
+fn track(wide: bool, error: f64, error2: f64, bound: f64, case: &Case, d: [i32; 3], inv: [i32; 3]) {
     use std::sync::Mutex; static M: Mutex<[f64; 2]> = Mutex::new([0.0; 2]);
-    let mut m = M.lock().unwrap(); if error > m[wide as usize] { m[wide as usize] = error; println!("{m:?} {gentle:?} {case:?} {d:?} {inv:?}"); }
+    let mut m = M.lock().unwrap(); if error > m[wide as usize] { m[wide as usize] = error; println!("{m:?} {error2} {bound} {case:?} {d:?} {inv:?}"); }
 }
 
 /// Up to 2^30 either way, the domain of a varying.

@@ -212,14 +212,22 @@ proptest! {
 
     /// Off by up to 1/8, and by up to 2^-14, where exponents of 10^4 fall.
     #[test]
-    fn highlights_are_as_near_as_stated(case in case(16_384 * FULL), off in prop::array::uniform3(-1 << 26..=1i32 << 26), less: bool) {
+    fn highlights_are_as_near_as_stated(
+        case in case(16_384 * FULL),
+        off in prop::array::uniform3(-1 << 26..=1i32 << 26),
+        less: bool,
+    ) {
         let case = mirrored(case, if less { off.map(|c| c >> 11) } else { off });
         prop_assert!(case.share() <= 1.0, "{:?} of {:?}", case.errors(), case.stated());
     }
 
     /// A power of two in the normal's length changes nothing, any other factor what rounding does.
     #[test]
-    fn the_length_of_a_normal_does_not_matter(case in case(3 * FULL), normal in prop::array::uniform3(-64..=64i32), up in 0..24u32) {
+    fn the_length_of_a_normal_does_not_matter(
+        case in case(3 * FULL),
+        normal in prop::array::uniform3(-64..=64i32),
+        up in 0..24u32,
+    ) {
         let [short, long] = [0, up].map(|up| Case { normal: normal.map(|c| c << up), ..case.clone() });
         prop_assert_eq!(short.core(), long.core());
         let odd = Case { normal: normal.map(|c| c * 33_554_431), ..case };
