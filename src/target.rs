@@ -126,8 +126,9 @@ impl<P: Copy> Target for Buffer<'_, P> {
 
     #[inline(always)]
     fn row(&mut self, row: i32) -> &mut [P] {
-        let start = (row - self.window.top) as usize * self.stride;
-        let width = (self.window.right - self.window.left) as usize;
+        // Rows off the window wrap to a start that is past the end, or hold other pixels of the same buffer.
+        let start = (row.wrapping_sub(self.window.top) as usize).wrapping_mul(self.stride);
+        let width = self.window.right.wrapping_sub(self.window.left) as usize;
         self.pixels
             .get_mut(start..)
             .and_then(|rest| rest.get_mut(..width))
