@@ -8,13 +8,11 @@ use crate::window::Window;
 /// Positions are those of the whole picture: a target that holds rows 16 to 31 is asked for row 16 first. That is why a
 /// picture drawn strip by strip has the same bits as one drawn whole.
 ///
-/// A complete implementation, for a display buffer with its columns reversed in memory... is not possible, since rows are
-/// slices; one for two buffers of a double-height panel is:
+/// A complete implementation by a user, for a panel whose upper and lower half are separate buffers:
 ///
 /// ```
 /// use fixel::{target::Target, window::Window};
 ///
-/// /// A panel whose upper and lower half are separate buffers.
 /// struct SplitPanel {
 ///     upper: [u16; 16 * 8],
 ///     lower: [u16; 16 * 8],

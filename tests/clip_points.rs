@@ -150,7 +150,10 @@ fn on_the_edge<T: Word, W: Word>(
 ) -> BTreeSet<(i32, i32)> {
     let one = 1 << 30;
     let which = [[one, 0, 0], [0, one, 0], [0, 0, one]];
-    let vertices = order.map(|i| Vertex { position: eye[i], carried: which[i] });
+    let vertices = order.map(|i| Vertex {
+        position: eye[i],
+        carried: which[i],
+    });
     let mut positions = BTreeSet::new();
     view.project::<Perspective<3>>(&vertices, |polygon| {
         let on_edge = (0..polygon.count()).filter(|&i| polygon.varying(i).over_w[2] == 0);

@@ -213,11 +213,18 @@ fn check_floor<T: Word, W: Word>(
 
 /// What is drawn of a triangle is what the obviously correct rasterizer says of the polygon's corners.
 fn check_polygon<T: Word, W: Word>(view: &View<T, W, 3>, triangle: [Point; 3]) -> Result<(), TestCaseError> {
-    let vertices = triangle.map(|p| Vertex { position: block(p), carried: () });
+    let vertices = triangle.map(|p| Vertex {
+        position: block(p),
+        carried: (),
+    });
     let mut fans = Vec::new();
     view.project::<()>(&vertices, |polygon| {
         let corners: Vec<_> = (0..polygon.count()).map(|i| polygon.position(i)).collect();
-        fans.push((2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]]).collect::<Vec<_>>());
+        fans.push(
+            (2..corners.len())
+                .map(|i| [corners[0], corners[i - 1], corners[i]])
+                .collect::<Vec<_>>(),
+        );
     });
     for fan in &fans {
         let areas: Vec<_> = fan.iter().map(fixel::span::doubled_area).collect();
@@ -230,7 +237,13 @@ fn check_polygon<T: Word, W: Word>(view: &View<T, W, 3>, triangle: [Point; 3]) -
     for y in 0..HEIGHT {
         for x in 0..WIDTH {
             let covered = |fan: &Vec<_>| fan.iter().filter(|&&t| naive::covers(t, x, y)).count();
-            prop_assert!(fans.iter().all(|fan| covered(fan) <= 1), "({}, {}) is twice in one of {:?}", x, y, fans);
+            prop_assert!(
+                fans.iter().all(|fan| covered(fan) <= 1),
+                "({}, {}) is twice in one of {:?}",
+                x,
+                y,
+                fans
+            );
             let expected = fans.iter().any(|fan| covered(fan) == 1);
             let drawn = picture[y as usize].as_bytes()[x as usize] == b'#';
             prop_assert_eq!(drawn, expected, "({}, {}) of {:?}", x, y, fans);

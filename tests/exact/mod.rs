@@ -60,7 +60,10 @@ impl Exact {
 
     /// Cut towards zero to a multiple of 2^-bits, so that a long computation stays small.
     pub fn cut(mut self, bits: i64) -> Self {
-        while self.exponent < -bits && !self.digits.is_empty() {
+        while self.exponent < -bits {
+            if self.is_zero() {
+                return Self::zero();
+            }
             let drop = (-bits - self.exponent).min(31) as u32;
             let mut carry = 0u64;
             for digit in self.digits.iter_mut().rev() {
