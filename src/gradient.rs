@@ -243,11 +243,12 @@ impl Plane {
     #[inline(always)]
     pub fn ramp(&self, place: &Place) -> Ramp<i32> {
         let (least, most) = self.range;
-        let start = self.at(place) >> EXTRA_BITS;
-        let start = start.max(i32::MIN as i64).min(i32::MAX as i64) as i32;
+        let start = saturated(self.at(place) >> EXTRA_BITS);
         let mut step = self.narrow_step;
-        if (step as i64 * place.steps as i64).unsigned_abs() > most.abs_diff(least) as u64 {
-            step = steepest(step as i64, place.steps, most.abs_diff(least) as i64) as i32;
+        let rise = step as i64 * place.steps as i64;
+        let span = most.wrapping_sub(least) as u32;
+        if rise as i32 as i64 != rise || (rise as i32).unsigned_abs() > span {
+            step = steepest(step as i64, place.steps, span as i64) as i32;
         }
         // At most the range from here on: 32 bits hold all of it.
         let rise = step * place.steps;
@@ -302,6 +303,19 @@ impl Plane {
         } else {
             self.value + change
         }
+    }
+}
+
+/// The nearest 32-bit value; one comparison where it is the value itself, which it is but for rounding at the very ends.
+#[inline(always)]
+fn saturated(value: i64) -> i32 {
+    let low = value as i32;
+    if low as i64 == value {
+        low
+    } else if value < 0 {
+        i32::MIN
+    } else {
+        i32::MAX
     }
 }
 
