@@ -191,13 +191,6 @@ fn seen() -> impl Strategy<Value = Seen> {
 /// Two triangles on either side of the edge a–b, each with its corners in every order.
 fn check_neighbours<T: Word, W: Word>(seen: &Seen, [a, b, c, d]: [Point; 4]) -> Result<(), TestCaseError> {
     let (left, bottom) = seen.corner;
-    // A quadrangle whose corners have w of both signs is not convex once it is divided: which of its corners the
-    // depth range cuts off is nobody's promise.
-    let user_planes = if seen.behind == Behind::Cut {
-        &seen.planes[..]
-    } else {
-        &[]
-    };
     let mut planes = Planes::default();
     seen.planes.iter().for_each(|&p| planes.push(block(p)).unwrap());
     let view = View::<T, W, 3> {

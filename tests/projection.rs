@@ -31,7 +31,11 @@ impl Port {
     fn viewport<W: Word>(&self) -> Viewport<W> {
         let viewport = Viewport::new(self.corner[0], self.corner[1], self.size[0], self.size[1]).unwrap();
         let viewport = if self.up { viewport.y_up() } else { viewport };
-        if self.centers { viewport.samples_at_centers() } else { viewport }
+        if self.centers {
+            viewport.samples_at_centers()
+        } else {
+            viewport
+        }
     }
 
     /// Twice the exact position of a point in subpixels, times w: (size·(±v + w) + 2·corner·w)·256, less w·256 for centres.
@@ -46,8 +50,14 @@ impl Port {
 
 fn ports() -> impl Strategy<Value = Port> {
     let corner = prop::array::uniform2(-3000..3000i32);
-    (corner, prop::array::uniform2(0..1000u16), any::<bool>(), any::<bool>())
-        .prop_map(|(corner, size, up, centers)| Port { corner, size, up, centers })
+    (corner, prop::array::uniform2(0..1000u16), any::<bool>(), any::<bool>()).prop_map(|(corner, size, up, centers)| {
+        Port {
+            corner,
+            size,
+            up,
+            centers,
+        }
+    })
 }
 
 /// position is floor(doubled/(2·w) + ½): 2·w·(position − ½) ≤ doubled < 2·w·(position + ½), moved into the guard band.
@@ -70,15 +80,21 @@ fn check_place<T: Word, W: Word>(port: &Port, point: Block<T, 4>) -> Result<(), 
         prop_assert!(is_nearest(px, &port.doubled(0, &x, &w), &w, limit), "x = {}", px);
         prop_assert!(is_nearest(py, &port.doubled(1, &y, &w), &w, limit), "y = {}", py);
         // Twice the depth in units, times w.
-        let doubled = &Exact::new(FULL_DEPTH, 0) * &match range {
-            DepthRange::ZeroToOne => &z + &z,
-            DepthRange::MinusOneToOne => &z + &w,
-            DepthRange::Unlimited => Exact::zero(),
-        };
+        let doubled = &Exact::new(FULL_DEPTH, 0)
+            * &match range {
+                DepthRange::ZeroToOne => &z + &z,
+                DepthRange::MinusOneToOne => &z + &w,
+                DepthRange::Unlimited => Exact::zero(),
+            };
         let found = &(&Exact::new(depth, 1) * &w);
         let off = &doubled - found;
         let saturated = (depth == 0 && doubled <= Exact::zero()) || (depth as i64 == FULL_DEPTH && &doubled >= found);
-        prop_assert!(saturated || off.abs() < &Exact::new(2 * DEPTH_ERROR, 0) * &w, "depth {} for {:?}", depth, range);
+        prop_assert!(
+            saturated || off.abs() < &Exact::new(2 * DEPTH_ERROR, 0) * &w,
+            "depth {} for {:?}",
+            depth,
+            range
+        );
     }
     Ok(())
 }
@@ -96,7 +112,14 @@ fn points() -> impl Strategy<Value = [f64; 4]> {
 
 fn view<T: Word>(port: &Port, depth_range: DepthRange, behind: Behind) -> View<T, i32, 0> {
     let (projection, planes, viewport) = (Matrix::identity(), Planes::default(), port.viewport());
-    View { projection, planes, viewport, depth_range, behind, cull: Cull::Nothing }
+    View {
+        projection,
+        planes,
+        viewport,
+        depth_range,
+        behind,
+        cull: Cull::Nothing,
+    }
 }
 
 /// The corners of what is drawn of a triangle in clip space.
@@ -164,25 +187,43 @@ proptest! {
 
 #[test]
 fn w_of_zero_draws_nothing_where_it_would_be_divided_by() {
-    let port = Port { corner: [0, 0], size: [64, 64], up: false, centers: false };
+    let port = Port {
+        corner: [0, 0],
+        size: [64, 64],
+        up: false,
+        centers: false,
+    };
     let points = [[0, 0, 0, 0], [1, 0, 0, 1], [0, 1, 0, 1]].map(Block::<i32, 4>::from_integers);
     assert!(projected(&view(&port, DepthRange::Unlimited, Behind::Divide), points).is_empty());
     let at_infinity = [[1, 0, 0, 0], [0, 0, 0, 1], [0, 1, 0, 1]].map(Block::<i32, 4>::from_integers);
     assert!(projected(&view(&port, DepthRange::Unlimited, Behind::Divide), at_infinity).is_empty());
     // Cut off at the guard band, a corner at infinity leaves a strip towards it.
-    assert_eq!(projected(&view(&port, DepthRange::Unlimited, Behind::Cut), at_infinity).len(), 1);
+    assert_eq!(
+        projected(&view(&port, DepthRange::Unlimited, Behind::Cut), at_infinity).len(),
+        1
+    );
 }
 
 #[test]
 fn viewports_beyond_the_guard_band_are_refused() {
     fn refused<W: Word>(left: i32, width: u16) -> bool {
-        let both = [Viewport::<W>::new(left, 0, width, 5), Viewport::<W>::new(0, left, 5, width)];
+        let both = [
+            Viewport::<W>::new(left, 0, width, 5),
+            Viewport::<W>::new(0, left, 5, width),
+        ];
         assert!(both.iter().all(|v| v.is_ok()) || both.iter().all(|v| *v == Err(Error::TooLarge)));
         both[0].is_err()
     }
     assert!(!refused::<i32>(-4096, 8192) && !refused::<i32>(4096, 0) && !refused::<i32>(0, 4096));
-    assert!(refused::<i32>(-4097, 9) && refused::<i32>(-4096, 8193) && refused::<i32>(1, 4096) && refused::<i32>(4097, 0));
-    assert!(!refused::<i64>(-32768, 65535) && !refused::<i64>(0, 32768) && refused::<i64>(1, 32768) && refused::<i64>(-32769, 0));
+    assert!(
+        refused::<i32>(-4097, 9) && refused::<i32>(-4096, 8193) && refused::<i32>(1, 4096) && refused::<i32>(4097, 0)
+    );
+    assert!(
+        !refused::<i64>(-32768, 65535)
+            && !refused::<i64>(0, 32768)
+            && refused::<i64>(1, 32768)
+            && refused::<i64>(-32769, 0)
+    );
     assert!(refused::<i32>(i32::MIN, 1) && refused::<i32>(i32::MAX, u16::MAX) && refused::<i64>(i32::MAX, u16::MAX));
 }
 
@@ -190,9 +231,15 @@ fn viewports_beyond_the_guard_band_are_refused() {
 #[test]
 fn the_corners_of_a_picture() {
     let viewport = Viewport::<i32>::new(10, 20, 100, 50).unwrap();
-    let place = |v: Viewport<i32>, x, y| v.place(Block::<i32, 4>::from_integers([x, y, 1, 2]), DepthRange::ZeroToOne).unwrap();
+    let place = |v: Viewport<i32>, x, y| {
+        v.place(Block::<i32, 4>::from_integers([x, y, 1, 2]), DepthRange::ZeroToOne)
+            .unwrap()
+    };
     assert_eq!(place(viewport, -2, -2), (10 * 256, 20 * 256, (65535 << 15) / 2));
     assert_eq!(place(viewport, 2, 2), (110 * 256, 70 * 256, (65535 << 15) / 2));
     assert_eq!(place(viewport.y_up(), 2, 2), (110 * 256, 20 * 256, (65535 << 15) / 2));
-    assert_eq!(place(viewport.samples_at_centers(), -2, -2), (10 * 256 - 128, 20 * 256 - 128, (65535 << 15) / 2));
+    assert_eq!(
+        place(viewport.samples_at_centers(), -2, -2),
+        (10 * 256 - 128, 20 * 256 - 128, (65535 << 15) / 2)
+    );
 }

@@ -48,7 +48,11 @@ fn sine(turns: u64, pi: &Exact) -> Exact {
     let (negative, within) = (turns >> 63 == 1, turns & (u64::MAX >> 1));
     // sin(½ − t) = sin(t), and beyond an eighth the cosine of the rest of the quarter.
     let within = if within > 1 << 62 { (1 << 63) - within } else { within };
-    let (angle, is_cosine) = if within > 1 << 61 { ((1 << 62) - within, true) } else { (within, false) };
+    let (angle, is_cosine) = if within > 1 << 61 {
+        ((1 << 62) - within, true)
+    } else {
+        (within, false)
+    };
     let radians = (&Exact::new(angle, -63) * pi).cut(PRECISION);
     let square = (&radians * &radians).cut(PRECISION);
     let mut term = if is_cosine { Exact::new(1, 0) } else { radians };
@@ -70,7 +74,9 @@ fn cosine(turns: u64, pi: &Exact) -> Exact {
 fn error<S: Trigonometry, T: Word>(turns: u64, pi: &Exact) -> f64 {
     let (sin, cos) = S::sin_cos::<T>(Angle::from_turns(turns));
     let off = |found: T, truth: Exact| {
-        (&Exact::new(found.to_i64(), 0) - &(&truth * &Exact::power(T::BITS as i32))).abs().to_f64()
+        (&Exact::new(found.to_i64(), 0) - &(&truth * &Exact::power(T::BITS as i32)))
+            .abs()
+            .to_f64()
     };
     off(sin, sine(turns, pi)).max(off(cos, cosine(turns, pi)))
 }
@@ -78,7 +84,17 @@ fn error<S: Trigonometry, T: Word>(turns: u64, pi: &Exact) -> f64 {
 /// Angles of every kind: next to the table's steps and half-way between them, and spread over the turn.
 fn angles() -> impl Iterator<Item = u64> {
     let near = (0..256u64).flat_map(|step| {
-        let around = [0, 1, 1 << 20, 1 << 54, (1 << 55) - 1, 1 << 55, (1 << 55) + 1, u64::MAX, u64::MAX - (1 << 30)];
+        let around = [
+            0,
+            1,
+            1 << 20,
+            1 << 54,
+            (1 << 55) - 1,
+            1 << 55,
+            (1 << 55) + 1,
+            u64::MAX,
+            u64::MAX - (1 << 30),
+        ];
         around.map(|off| (step << 56).wrapping_add(off))
     });
     near.chain((0..6000u64).map(|i| i.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
@@ -110,7 +126,10 @@ fn the_tables_are_the_nearest_sines() {
     fn check<T: Word>(pi: &Exact) {
         for (i, entry) in T::SINES.iter().enumerate() {
             let truth = &sine((i as u64) << 56, pi) * &Exact::power(T::BITS as i32);
-            assert!((&truth - &Exact::new(entry.to_i64(), 0)).abs() <= Exact::power(-1), "entry {i}");
+            assert!(
+                (&truth - &Exact::new(entry.to_i64(), 0)).abs() <= Exact::power(-1),
+                "entry {i}"
+            );
         }
     }
     check::<i32>(&pi);
@@ -120,10 +139,16 @@ fn the_tables_are_the_nearest_sines() {
 #[test]
 fn the_table_is_as_near_as_it_says() {
     let pi = pi();
-    for (worst, stated) in [worst::<SineTable, i32>(&pi), worst::<SineTable, i64>(&pi)].into_iter().zip(TABLE_ERROR) {
+    for (worst, stated) in [worst::<SineTable, i32>(&pi), worst::<SineTable, i64>(&pi)]
+        .into_iter()
+        .zip(TABLE_ERROR)
+    {
         println!("worst {worst} of {stated} units");
         assert!(worst <= stated, "{worst} units");
-        assert!(stated <= LOOSEST * worst, "{worst} units are far below the stated {stated}");
+        assert!(
+            stated <= LOOSEST * worst,
+            "{worst} units are far below the stated {stated}"
+        );
     }
 }
 
@@ -143,7 +168,11 @@ fn check_circle<T: Word>(turns: u64) -> Result<(), TestCaseError> {
     let (sin, cos) = SineTable::sin_cos::<T>(Angle::from_turns(turns));
     let (s, c) = (sin.to_i64() as i128, cos.to_i64() as i128);
     let off = s * s + c * c - (1 << (2 * T::BITS));
-    prop_assert!(off.abs() <= CIRCLE_ERROR << T::BITS, "sin² + cos² is off by {} units", off >> T::BITS);
+    prop_assert!(
+        off.abs() <= CIRCLE_ERROR << T::BITS,
+        "sin² + cos² is off by {} units",
+        off >> T::BITS
+    );
     // A quarter turn on, the same two numbers.
     let (next_sin, next_cos) = SineTable::sin_cos::<T>(Angle::from_turns(turns.wrapping_add(1 << 62)));
     prop_assert_eq!((next_sin, next_cos), (cos, -sin));
@@ -171,9 +200,19 @@ proptest! {
 
 #[test]
 fn right_angles_are_exact() {
-    for (degrees, sin, cos) in [(0, 0, 1), (90, 1, 0), (180, 0, -1), (270, -1, 0), (-90, -1, 0), (720, 0, 1)] {
+    for (degrees, sin, cos) in [
+        (0, 0, 1),
+        (90, 1, 0),
+        (180, 0, -1),
+        (270, -1, 0),
+        (-90, -1, 0),
+        (720, 0, 1),
+    ] {
         let angle = Angle::from_degrees(degrees);
         assert_eq!(SineTable::sin_cos::<i32>(angle), (sin << 30, cos << 30));
-        assert_eq!(SineTable::sin_cos::<i64>(angle), ((sin as i64) << 62, (cos as i64) << 62));
+        assert_eq!(
+            SineTable::sin_cos::<i64>(angle),
+            ((sin as i64) << 62, (cos as i64) << 62)
+        );
     }
 }
