@@ -43,7 +43,11 @@ impl Fixed {
     /// As [`new`](Self::new).
     pub fn part(width: u32, height: u32, window: Window) -> Self {
         let fits = |size: u32| size <= <i32 as Word>::GUARD as u32;
-        if fits(width) && fits(height) { Self::with_word::<i32>(width, height, window) } else { Self::with_word::<i64>(width, height, window) }
+        if fits(width) && fits(height) {
+            Self::with_word::<i32>(width, height, window)
+        } else {
+            Self::with_word::<i64>(width, height, window)
+        }
     }
 
     /// With a certain word for the edges.
@@ -65,7 +69,13 @@ impl Fixed {
                 cull: Cull::Nothing,
             },
             window,
-            pixels: vec![Pixel { rgba: [0; 4], primitive: 0 }; window.width() * window.height()],
+            pixels: vec![
+                Pixel {
+                    rgba: [0; 4],
+                    primitive: 0
+                };
+                window.width() * window.height()
+            ],
             depths: vec![FAR; window.width() * window.height()],
         }))
     }
@@ -98,7 +108,10 @@ impl Fragment for Gouraud {
 
     fn shade(&self, values: [i32; 3], _below: Pixel) -> Option<Pixel> {
         let [red, green, blue] = values.map(|v| lower::byte(v, self.shift));
-        Some(Pixel { rgba: [red, green, blue, 255], primitive: self.primitive })
+        Some(Pixel {
+            rgba: [red, green, blue, 255],
+            primitive: self.primitive,
+        })
     }
 }
 
@@ -147,7 +160,9 @@ impl<W: Word> BackEnd for Scene<W> {
     fn rotate(&mut self, degrees: f64, axis: [f64; 3]) -> Result<(), String> {
         let (angle, axis) = (lower::angle(degrees), lower::block(axis));
         self.multiply(&Matrix::rotation::<SineTable>(angle, axis).map_err(|e| e.to_string())?);
-        self.directions.rotate::<SineTable>(angle, axis).map_err(|e| e.to_string())
+        self.directions
+            .rotate::<SineTable>(angle, axis)
+            .map_err(|e| e.to_string())
     }
 
     fn scale(&mut self, by: [f64; 3]) -> Result<(), String> {
@@ -180,7 +195,10 @@ impl<W: Word> BackEnd for Scene<W> {
     fn clip_plane(&mut self, [a, b, c, d]: [f64; 4]) -> Result<(), String> {
         let [a, b, c] = self.directions.turn(lower::block([a, b, c])).split();
         let plane = Block::gather([a, b, c, lower::block([d])]);
-        self.view.planes.push(plane).map_err(|e: Error| format!("{e} ({PLANES})"))
+        self.view
+            .planes
+            .push(plane)
+            .map_err(|e: Error| format!("{e} ({PLANES})"))
     }
 
     fn cull(&mut self) {
@@ -191,15 +209,24 @@ impl<W: Word> BackEnd for Scene<W> {
         let eye = corners.map(|v| self.model_view.transform(lower::block(v.position)));
         match surface {
             Surface::Flat(color) => {
-                let lower::Channels { corners: [channels], shift } = lower::channels([color]);
+                let lower::Channels {
+                    corners: [channels],
+                    shift,
+                } = lower::channels([color]);
                 let [red, green, blue] = channels.map(|v| lower::byte(v, shift));
-                let pixel = Pixel { rgba: [red, green, blue, 255], primitive };
+                let pixel = Pixel {
+                    rgba: [red, green, blue, 255],
+                    primitive,
+                };
                 self.draw(eye.map(|position| EyeVertex { position, carried: () }), &Flat(pixel));
             }
             Surface::Gouraud => {
                 let lower::Channels { corners: colors, shift } = lower::channels(corners.map(|v| v.color));
                 let mut colors = colors.into_iter();
-                let vertices = eye.map(|position| EyeVertex { position, carried: colors.next().unwrap_or_default() });
+                let vertices = eye.map(|position| EyeVertex {
+                    position,
+                    carried: colors.next().unwrap_or_default(),
+                });
                 self.draw(vertices, &Gouraud { shift, primitive });
             }
         }

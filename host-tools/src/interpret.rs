@@ -8,9 +8,16 @@ use crate::scene::{Action, Command, Fault, Fill, Scene};
 /// # Errors
 /// A fault at the keyword of a command that is not supported yet, or whose values do not fit the back end.
 pub fn interpret(scene: &Scene, back_end: &mut dyn BackEnd) -> Result<(), Fault> {
-    let mut state = State { vertices: Vec::new(), color: [1.0; 3], primitive: 0 };
+    let mut state = State {
+        vertices: Vec::new(),
+        color: [1.0; 3],
+        primitive: 0,
+    };
     for command in &scene.commands {
-        let fault = |message| Fault { place: command.place, message };
+        let fault = |message| Fault {
+            place: command.place,
+            message,
+        };
         state.obey(command, back_end).map_err(fault)?;
     }
     Ok(())
@@ -27,7 +34,10 @@ impl State {
     fn obey(&mut self, command: &Command, back_end: &mut dyn BackEnd) -> Result<(), String> {
         match &command.action {
             Action::Vertex(position) => {
-                self.vertices.push(Vertex { position: *position, color: self.color });
+                self.vertices.push(Vertex {
+                    position: *position,
+                    color: self.color,
+                });
                 Ok(())
             }
             Action::Color(color) => {
@@ -69,12 +79,19 @@ impl State {
         };
         let [a, b, c] = corners;
         self.primitive += 1;
-        back_end.triangle(self.primitive, [self.vertex(a)?, self.vertex(b)?, self.vertex(c)?], surface)
+        back_end.triangle(
+            self.primitive,
+            [self.vertex(a)?, self.vertex(b)?, self.vertex(c)?],
+            surface,
+        )
     }
 
     /// The parser has resolved and checked the index.
     fn vertex(&self, index: usize) -> Result<Vertex, String> {
-        self.vertices.get(index).copied().ok_or_else(|| format!("vertex {} does not exist", index + 1))
+        self.vertices
+            .get(index)
+            .copied()
+            .ok_or_else(|| format!("vertex {} does not exist", index + 1))
     }
 }
 

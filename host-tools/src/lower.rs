@@ -52,7 +52,10 @@ pub fn channels<const N: usize>(colors: [[f64; 3]; N]) -> Channels<N> {
     let unit = f64::from(CHANNEL_BITS - shift as i32).exp2();
     // Halving before and doubling after keeps 255·c below the largest float64.
     let channel = |c: f64| (c * unit * 0.5 * 255.0 * 2.0).round() as i32;
-    Channels { corners: colors.map(|c| c.map(channel)), shift }
+    Channels {
+        corners: colors.map(|c| c.map(channel)),
+        shift,
+    }
 }
 
 /// A channel of a [`Channels`] as a byte: cut off, clamped to 0…255.
@@ -88,6 +91,9 @@ mod tests {
     #[test]
     fn channels_cut_off_and_saturate() {
         let bytes = |c: f64| byte(channels([[c; 3]]).corners[0][0], channels([[c; 3]]).shift);
-        assert_eq!([0.5, 1.0, 0.2, 0.6, 2.0, -1.0, 1e300, -1e300].map(bytes), [127, 255, 51, 153, 255, 0, 255, 0]);
+        assert_eq!(
+            [0.5, 1.0, 0.2, 0.6, 2.0, -1.0, 1e300, -1e300].map(bytes),
+            [127, 255, 51, 153, 255, 0, 255, 0]
+        );
     }
 }

@@ -17,12 +17,21 @@ fn the_main_command_draws_the_picture_shown() {
     assert!(output.status.success(), "{printed}");
 
     let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
-    let shown = readme.lines().find_map(|line| line.trim().strip_prefix("tests/scenes/prisms.txt: ")).unwrap();
+    let shown = readme
+        .lines()
+        .find_map(|line| line.trim().strip_prefix("tests/scenes/prisms.txt: "))
+        .unwrap();
     let shown = shown.trim_end_matches(" …").trim_end_matches(',');
-    assert!(printed.contains(shown), "README shows: {shown}\nhost-render prints: {printed}");
+    assert!(
+        printed.contains(shown),
+        "README shows: {shown}\nhost-render prints: {printed}"
+    );
 
     let picture = std::fs::read(folder.path().join("prisms.png")).unwrap();
-    assert!(picture == std::fs::read(root.join("docs/prisms.png")).unwrap(), "docs/prisms.png is stale");
+    assert!(
+        picture == std::fs::read(root.join("docs/prisms.png")).unwrap(),
+        "docs/prisms.png is stale"
+    );
 }
 
 /// The README's example is the one of the crate's documentation, which runs.
