@@ -98,7 +98,8 @@ impl Depth for NoDepth {
 /// Depths in a [`Target`] of `u16`, 0 near, 65535 far: clear it to [`FAR`] first.
 ///
 /// Depth is linear over the screen. A depth in 0…1 is stored as the nearest of 65536 steps; the stored one is within one
-/// step of the true one.
+/// step of the true one on pictures within ±4096 px (0.64 at the worst seen), within 2.5 on larger ones, where a row's
+/// 32-bit steps add up.
 ///
 /// ```
 /// use fixel::{depth::{DepthBuffer, FAR, LessOrEqual}, target::Buffer};

@@ -248,7 +248,7 @@ impl Plane {
         let rise = step as i64 * place.steps as i64;
         let span = most.wrapping_sub(least) as u32;
         if rise as i32 as i64 != rise || (rise as i32).unsigned_abs() > span {
-            step = steepest(step as i64, place.steps, span as i64) as i32;
+            step = steepest(step as i64, place.steps, (span as i64).min(i32::MAX as i64)) as i32;
         }
         // At most the range from here on: 32 bits hold all of it.
         let rise = step * place.steps;

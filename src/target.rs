@@ -138,8 +138,9 @@ impl<P: Copy> Target for Buffer<'_, P> {
 #[inline(always)]
 pub(crate) fn pixels<'t, C: Target>(target: &'t mut C, window: Window, span: &crate::span::Span) -> &'t mut [C::Pixel] {
     let row = target.row(span.row);
-    let skip = (span.left - window.left) as usize;
-    let count = (span.right - span.left) as usize;
+    // A span lies on the window; wrapping keeps windows of any size from overflowing.
+    let skip = span.left.wrapping_sub(window.left) as u32 as usize;
+    let count = span.right.wrapping_sub(span.left) as u32 as usize;
     row.get_mut(skip..)
         .and_then(|rest| rest.get_mut(..count))
         .unwrap_or_default()

@@ -80,8 +80,9 @@ impl<const N: usize> Varying for Linear<N> {
 /// Where all corners have the same w nothing is divided. With w of one sign the pixel's value lies in the range of the
 /// corners' values; with mixed signs 1/w passes through 0 inside the polygon, and the value saturates there.
 ///
-/// **Error**: 1/w and value/w are within 2^-27 of their largest corner value, and the quotient adds a unit or two, so that
-/// the value is within 2^-26·ρ of its largest plus 2 units, with ρ the largest 1/w of the polygon over that of the pixel.
+/// **Error**: 1/w and value/w are within 2^-27 of their largest corner value, and value/w is rounded to a unit at the
+/// corners. With ρ the largest 1/w of the polygon over that of the pixel, the value is within
+/// ρ·(2^-26·largest + 1) + 3 units + 2^-30·|value| (`tests/interpolation.rs`).
 ///
 /// ```
 /// use fixel::varying::Perspective;
