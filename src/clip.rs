@@ -44,7 +44,7 @@ pub enum Behind {
 pub struct ClipCorner<T> {
     /// Homogeneous position.
     pub position: Block<T, 4>,
-    /// position = Σ weight · vertex, over the three vertices of the triangle.
+    /// position = Σ weight · vertex, over the three vertices of the triangle; each within 2^(2−BITS) of the largest weight.
     pub weights: Block<T, 3>,
 }
 

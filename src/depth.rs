@@ -7,10 +7,10 @@ use crate::span::Span;
 use crate::target::{Target, pixels};
 use crate::window::Window;
 
-/// Whether a fragment of depth `new` is drawn over one of depth `old`; smaller is nearer.
+/// Whether a fragment of depth `new` is drawn over one of depth `old`, both 0…65535; smaller is nearer.
 pub trait Comparison {
-    /// The rule.
-    fn passes(new: u16, old: u16) -> bool;
+    /// The rule. On words: comparing halfwords costs an instruction more per pixel.
+    fn passes(new: u32, old: u32) -> bool;
 }
 
 macro_rules! comparisons {
@@ -26,7 +26,7 @@ macro_rules! comparisons {
 
         impl Comparison for $name {
             #[inline(always)]
-            fn passes(new: u16, old: u16) -> bool {
+            fn passes(new: u32, old: u32) -> bool {
                 new $operator old
             }
         }
@@ -48,7 +48,7 @@ pub enum Always {}
 
 impl Comparison for Always {
     #[inline(always)]
-    fn passes(_: u16, _: u16) -> bool {
+    fn passes(_: u32, _: u32) -> bool {
         true
     }
 }
@@ -68,8 +68,8 @@ pub trait Depth {
     fn limit(&self, window: Window) -> Window;
     /// The cells of `span`.
     fn cells(&mut self, span: &Span) -> Self::Cells<'_>;
-    /// Compares and stores; whether the fragment is drawn.
-    fn test(cell: Self::Cell<'_>, depth: u16) -> bool;
+    /// Compares `depth`, 0…65535, and stores it; whether the fragment is drawn.
+    fn test(cell: Self::Cell<'_>, depth: u32) -> bool;
 }
 
 /// No depth: later drawing covers earlier, and nothing is computed or stored.
@@ -90,7 +90,7 @@ impl Depth for NoDepth {
         core::iter::repeat_n((), (span.right - span.left) as usize)
     }
     #[inline(always)]
-    fn test(_: (), _: u16) -> bool {
+    fn test(_: (), _: u32) -> bool {
         true
     }
 }
@@ -98,7 +98,8 @@ impl Depth for NoDepth {
 /// Depths in a [`Target`] of `u16`, 0 near, 65535 far: clear it to [`FAR`] first.
 ///
 /// Depth is linear over the screen. A depth in 0…1 is stored as the nearest of 65536 steps; the stored one is within one
-/// step of the true one.
+/// step of the true one on pictures within ±4096 px (0.64 at the worst seen), within 2.5 on larger ones, where a row's
+/// 32-bit steps add up.
 ///
 /// ```
 /// use fixel::{depth::{DepthBuffer, FAR, LessOrEqual}, target::Buffer};
@@ -143,10 +144,10 @@ impl<D: Target<Pixel = u16>, C: Comparison> Depth for DepthBuffer<D, C> {
         pixels(&mut self.depths, window, span).iter_mut()
     }
     #[inline(always)]
-    fn test(cell: &mut u16, depth: u16) -> bool {
-        let passes = C::passes(depth, *cell);
+    fn test(cell: &mut u16, depth: u32) -> bool {
+        let passes = C::passes(depth, *cell as u32);
         if passes {
-            *cell = depth;
+            *cell = depth as u16;
         }
         passes
     }

@@ -105,31 +105,42 @@ where
     let planes = F::Varying::planes(&basis, count, |i| shape.varying(i));
     let window = color.window();
     scan::<W>(shape, area > 0, depth.limit(window), |span| {
-        let ramp = depth_plane.as_ref().map(|plane| plane.ramp(&span)).unwrap_or_default();
-        let ramps = F::Varying::ramps(&planes, &span);
-        let cells = depth.cells(&span);
-        shade::<D, F>(pixels(color, window, &span), cells, ramp, &planes, ramps, fragment);
+        let pixels = pixels(color, window, &span);
+        if !D::ENABLED
+            && let Some(pixel) = fragment.solid()
+        {
+            pixels.fill(pixel);
+            return;
+        }
+        let place = basis.place(&span);
+        let ramp = depth_plane.as_ref().map(|plane| plane.ramp(&place)).unwrap_or_default();
+        let ramps = F::Varying::ramps(&planes, &place);
+        shade::<D, F>(pixels, depth.cells(&span), ramp, &planes, ramps, fragment);
     });
 }
 
 /// One span. Depth is tested before anything else is looked at.
-#[inline(always)]
+///
+/// A function of its own: inlined, what the rows need takes the registers, and the loop fetches its state from the stack
+/// (on Cortex-M4 14.3 instructions a pixel instead of 9.5 for flat with depth; `cargo xtask measure`).
+#[inline(never)]
 fn shade<D: Depth, F: Fragment>(
     pixels: &mut [F::Pixel],
     cells: D::Cells<'_>,
-    mut depth: Ramp<i32>,
+    depth: Ramp<i32>,
     planes: &<F::Varying as Varying>::Planes,
     mut ramps: <F::Varying as Varying>::Ramps,
     fragment: &F,
 ) {
+    // With the half that rounds to the nearest step. All values lie in 0…65535 steps, so that the sum fits 32 bits.
+    let mut fine = (depth.value as u32).wrapping_add(1 << 14);
     for (pixel, cell) in pixels.iter_mut().zip(cells) {
-        // Rounded to the nearest step: the value lies in 0…65535, so that the sum fits 31 bits.
-        if D::test(cell, ((depth.value + (1 << 14)) >> 15) as u16)
+        if D::test(cell, fine >> 15)
             && let Some(new) = fragment.shade(F::Varying::values(planes, &ramps), *pixel)
         {
             *pixel = new;
         }
-        depth.advance();
+        fine = fine.wrapping_add(depth.step as u32);
         F::Varying::advance(&mut ramps);
     }
 }

@@ -39,8 +39,8 @@ pub struct Basis {
     anchor: (i32, i32),
     fraction: (i32, i32),
     /// The other two corners relative to corner 0, in subpixels.
-    first: (i64, i64),
-    second: (i64, i64),
+    first: (i32, i32),
+    second: (i32, i32),
     /// Reciprocal of the doubled area: 1/area = reciprocal · 2^-(63 − shift), and the area's sign.
     reciprocal: u32,
     shift: i32,
@@ -56,23 +56,37 @@ impl Basis {
         let origin = corners.position(0);
         let from_origin = |i| {
             let (x, y) = corners.position(i);
-            ((x - origin.0) as i64, (y - origin.1) as i64)
+            (x - origin.0, y - origin.1)
         };
         let (mut area, mut best) = (0i64, 1);
         let mut previous = from_origin(1);
+        let (mut first, mut second) = (previous, previous);
         let mut reach = (previous.0.abs(), previous.1.abs());
         for i in 2..corners.count() {
             let next = from_origin(i);
             reach = (reach.0.max(next.0.abs()), reach.1.max(next.1.abs()));
-            let doubled = previous.0 * next.1 - previous.1 * next.0;
+            let doubled = previous.0 as i64 * next.1 as i64 - previous.1 as i64 * next.0 as i64;
             if doubled.unsigned_abs() > area.unsigned_abs() {
-                (area, best) = (doubled, i - 1);
+                (area, best, first, second) = (doubled, i - 1, previous, next);
             }
             previous = next;
         }
         if area == 0 {
             return None;
         }
+        Some(Self::of_triangle(origin, first, second, area, best, reach))
+    }
+
+    /// The same code for all kinds of corners.
+    #[inline(never)]
+    fn of_triangle(
+        origin: (i32, i32),
+        first: (i32, i32),
+        second: (i32, i32),
+        area: i64,
+        corner: usize,
+        reach: (i32, i32),
+    ) -> Self {
         // Normalised to 32 bits and rounded up, so that its reciprocal, and with it every step, is never too large.
         let magnitude = area.unsigned_abs();
         let shift = 32 - magnitude.leading_zeros() as i32;
@@ -81,18 +95,18 @@ impl Basis {
         } else {
             (magnitude << -shift) as u32
         };
-        Some(Basis {
-            corners: [0, best, best + 1],
+        Basis {
+            corners: [0, corner, corner + 1],
             anchor: (origin.0 >> SUBPIXEL_BITS, origin.1 >> SUBPIXEL_BITS),
             fraction: (origin.0 & (SUBPIXELS - 1), origin.1 & (SUBPIXELS - 1)),
-            first: from_origin(best),
-            second: from_origin(best + 1),
+            first,
+            second,
             // 2^63/divisor is 2^32 for the least divisor only; one less is an error of 2^-32.
             reciprocal: reciprocal(divisor).min(u32::MAX as u64) as u32,
             shift,
             negative: area < 0,
-            thin: reach.0 * reach.1 > 8 * magnitude as i64,
-        })
+            thin: reach.0 as i64 * reach.1 as i64 > 8 * magnitude as i64,
+        }
     }
 
     /// Indices of the polygon's corners whose values [`plane`](Self::plane) wants.
@@ -103,43 +117,36 @@ impl Basis {
 
     /// The plane through `values` at the three [`corners`](Self::corners); `range` holds the least and the largest value
     /// of all corners of the polygon. |values| ≤ 2^30, or all in 0…2^31−1.
-    #[inline]
+    #[inline(never)]
     pub fn plane(&self, values: [i32; 3], range: (i32, i32)) -> Plane {
         let [origin, a, b] = values.map(i64::from);
         let (da, db) = (a - origin, b - origin);
         // |d| < 2^31, positions within 2^25 of each other: below 2^57.
-        let numerator_x = da * self.second.1 - db * self.first.1;
-        let numerator_y = db * self.first.0 - da * self.second.0;
+        let numerator_x = da * self.second.1 as i64 - db * self.first.1 as i64;
+        let numerator_y = db * self.first.0 as i64 - da * self.second.0 as i64;
         let (step_x, step_y) = (self.step(numerator_x), self.step(numerator_y));
         let value = origin << EXTRA_BITS;
+        // Cut towards zero once more: a span of n pixels is off by less than n − 1 units at its end.
+        let narrow_step = (step_x / (1 << EXTRA_BITS)).min(i32::MAX as i64) as i32;
         let exact = self.thin || step_x.abs() == STEP_LIMIT || step_y.abs() == STEP_LIMIT;
-        let course = if exact {
-            let (reciprocal, shift) = (self.reciprocal, self.shift);
-            let sign = if self.negative { -1 } else { 1 };
-            Course::Exact {
-                numerator: (sign * numerator_x, sign * numerator_y),
-                fraction: self.fraction,
-                reciprocal,
-                shift,
-            }
+        let (value, x, y) = if exact {
+            (value, numerator_x, numerator_y)
         } else {
             let offset = (step_x * self.fraction.0 as i64 + step_y * self.fraction.1 as i64) >> SUBPIXEL_BITS;
-            Course::Steps {
-                value: value - offset,
-                step_y,
-            }
+            (value - offset, step_x, step_y)
         };
         Plane {
-            anchor: self.anchor,
             value,
-            step_x,
+            x,
+            y,
+            narrow_step,
             range,
-            course,
+            exact,
         }
     }
 
     /// `numerator` / area in units of 2^-14 per pixel, cut towards zero.
-    #[inline]
+    #[inline(never)]
     fn step(&self, numerator: i64) -> i64 {
         let magnitude = numerator.unsigned_abs();
         if magnitude == 0 {
@@ -164,37 +171,45 @@ impl Basis {
             quotient
         }
     }
+
+    /// Where `span` lies to the planes of this basis.
+    #[inline(always)]
+    pub fn place<'b>(&'b self, span: &Span) -> Place<'b> {
+        Place {
+            basis: self,
+            columns: span.whole_left - self.anchor.0,
+            rows: span.row - self.anchor.1,
+            steps: span.whole_right - span.whole_left - 1,
+            skipped: span.left - span.whole_left,
+        }
+    }
+}
+
+/// A span as the planes of a [`Basis`] see it.
+#[derive(Debug, Clone, Copy)]
+pub struct Place<'b> {
+    basis: &'b Basis,
+    /// From the anchor to the first covered sample of the row, on the window or not.
+    columns: i32,
+    rows: i32,
+    /// From there to the last covered one.
+    steps: i32,
+    /// From there to the first on the window.
+    skipped: i32,
 }
 
 /// A value that is linear over the screen; see the [module](self).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Plane {
-    anchor: (i32, i32),
-    /// At corner 0.
+    /// At the anchor pixel; where `exact`, at corner 0.
     value: i64,
-    step_x: i64,
+    /// Steps per pixel; where `exact`, steps per subpixel times the doubled area.
+    x: i64,
+    y: i64,
+    /// Step per column in whole units.
+    narrow_step: i32,
     range: (i32, i32),
-    course: Course,
-}
-
-/// How a plane gets from its anchor to a span.
-#[derive(Debug, Clone, Copy)]
-enum Course {
-    /// By steps from the anchor pixel.
-    Steps { value: i64, step_y: i64 },
-    /// From the change per subpixel times the doubled area, which is exact.
-    Exact {
-        numerator: (i64, i64),
-        fraction: (i32, i32),
-        reciprocal: u32,
-        shift: i32,
-    },
-}
-
-/// Only where a polygon's other corners were rounded off the plane, so that it leaves their range by the rounding.
-#[cold]
-fn steepest(step: i64, steps: i64, range: i64) -> i64 {
-    range.checked_div(steps).unwrap_or(0) * step.signum()
+    exact: bool,
 }
 
 /// A value along a span and its step per column, in the same units.
@@ -224,71 +239,89 @@ impl Ramp<i64> {
 }
 
 impl Plane {
-    /// At the first column of `span`, in units of the corners' values: 32-bit stepping.
+    /// At the first column of a span, in units of the corners' values: 32-bit stepping.
     #[inline(always)]
-    pub fn ramp(&self, span: &Span) -> Ramp<i32> {
-        let start = self.at(span) >> EXTRA_BITS;
-        // Cut towards zero once more: a span of n pixels is off by less than n − 1 units at its end.
-        let step = self.step_x / (1 << EXTRA_BITS);
-        let (value, step) = self.within(start, step, span, 0);
+    pub fn ramp(&self, place: &Place) -> Ramp<i32> {
+        let (least, most) = self.range;
+        let start = saturated(self.at(place) >> EXTRA_BITS);
+        let mut step = self.narrow_step;
+        let rise = step as i64 * place.steps as i64;
+        let span = most.wrapping_sub(least) as u32;
+        if rise as i32 as i64 != rise || (rise as i32).unsigned_abs() > span {
+            step = steepest(step as i64, place.steps, (span as i64).min(i32::MAX as i64)) as i32;
+        }
+        // At most the range from here on: 32 bits hold all of it.
+        let rise = step * place.steps;
+        let start = start.min(most - rise.max(0)).max(least - rise.min(0));
         Ramp {
-            value: value as i32,
-            step: step as i32,
+            value: start + step * place.skipped,
+            step,
         }
     }
 
-    /// At the first column of `span`, in units of 2^-14 of the corners' values: 64-bit stepping.
+    /// At the first column of a span, in units of 2^-14 of the corners' values: 64-bit stepping.
     #[inline(always)]
-    pub fn fine_ramp(&self, span: &Span) -> Ramp<i64> {
-        let (value, step) = self.within(self.at(span), self.step_x, span, EXTRA_BITS);
-        Ramp { value, step }
+    pub fn fine_ramp(&self, place: &Place) -> Ramp<i64> {
+        let (least, most) = ((self.range.0 as i64) << EXTRA_BITS, (self.range.1 as i64) << EXTRA_BITS);
+        let mut step = if self.exact { place.basis.step(self.x) } else { self.x };
+        let steps = place.steps as i64;
+        if (step * steps).abs() > most - least {
+            step = steepest(step, place.steps, most - least);
+        }
+        let rise = step * steps;
+        let start = self.at(place).min(most - rise.max(0)).max(least - rise.min(0));
+        Ramp {
+            value: start + step * place.skipped as i64,
+            step,
+        }
     }
 
     /// The plane at the first covered column of the row, on the window or not.
     #[inline(always)]
-    fn at(&self, span: &Span) -> i64 {
-        let (columns, rows) = (span.whole_left - self.anchor.0, span.row - self.anchor.1);
-        match self.course {
-            Course::Steps { value, step_y } => value + self.step_x * columns as i64 + step_y * rows as i64,
-            Course::Exact { .. } => self.exactly_at(columns, rows),
+    fn at(&self, place: &Place) -> i64 {
+        if self.exact {
+            return self.exactly_at(place);
         }
+        self.value + self.x * place.columns as i64 + self.y * place.rows as i64
     }
 
     #[cold]
     #[inline(never)]
-    fn exactly_at(&self, columns: i32, rows: i32) -> i64 {
-        let Course::Exact {
-            numerator,
-            fraction,
-            reciprocal,
-            shift,
-        } = self.course
-        else {
-            return self.value;
-        };
-        let dx = columns as i64 * SUBPIXELS as i64 - fraction.0 as i64;
-        let dy = rows as i64 * SUBPIXELS as i64 - fraction.1 as i64;
+    fn exactly_at(&self, place: &Place) -> i64 {
+        let basis = place.basis;
+        let dx = place.columns as i64 * SUBPIXELS as i64 - basis.fraction.0 as i64;
+        let dy = place.rows as i64 * SUBPIXELS as i64 - basis.fraction.1 as i64;
         // Below 2^57·2^26·2, times 2^32: 116 bits.
-        let product = (numerator.0 as i128 * dx as i128 + numerator.1 as i128 * dy as i128) * reciprocal as i128;
+        let product = (self.x as i128 * dx as i128 + self.y as i128 * dy as i128) * basis.reciprocal as i128;
         // 1/area = reciprocal·2^-(63 + shift), with the shift between −31 and 20.
-        let change = product >> (63 + shift - EXTRA_BITS as i32);
+        let change = product >> (63 + basis.shift - EXTRA_BITS as i32);
         // Samples of the polygon lie in the range or, by its rounding, next to it: nothing larger is meant.
         const MOST: i128 = 1 << 60;
-        self.value + change.max(-MOST).min(MOST) as i64
-    }
-
-    /// `start` moved so that it and the last value of the whole span lie in the corners' range, then taken to the
-    /// first column on the window.
-    #[inline(always)]
-    fn within(&self, start: i64, step: i64, span: &Span, extra: u32) -> (i64, i64) {
-        let (least, most) = ((self.range.0 as i64) << extra, (self.range.1 as i64) << extra);
-        let steps = (span.whole_right - span.whole_left - 1) as i64;
-        let mut step = step;
-        if (step * steps).abs() > most - least {
-            step = steepest(step, steps, most - least);
+        let change = change.clamp(-MOST, MOST) as i64;
+        if basis.negative {
+            self.value - change
+        } else {
+            self.value + change
         }
-        let rise = step * steps;
-        let start = start.min(most - rise.max(0)).max(least - rise.min(0));
-        (start + step * (span.left - span.whole_left) as i64, step)
     }
+}
+
+/// The nearest 32-bit value; one comparison where it is the value itself, which it is but for rounding at the very ends.
+#[inline(always)]
+fn saturated(value: i64) -> i32 {
+    let low = value as i32;
+    if low as i64 == value {
+        low
+    } else if value < 0 {
+        i32::MIN
+    } else {
+        i32::MAX
+    }
+}
+
+/// Only where a polygon's other corners were rounded off the plane, so that it leaves their range by the rounding.
+#[cold]
+#[inline(never)]
+fn steepest(step: i64, steps: i32, range: i64) -> i64 {
+    range.checked_div(steps as i64).unwrap_or(0) * step.signum()
 }

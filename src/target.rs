@@ -8,13 +8,11 @@ use crate::window::Window;
 /// Positions are those of the whole picture: a target that holds rows 16 to 31 is asked for row 16 first. That is why a
 /// picture drawn strip by strip has the same bits as one drawn whole.
 ///
-/// A complete implementation, for a display buffer with its columns reversed in memory... is not possible, since rows are
-/// slices; one for two buffers of a double-height panel is:
+/// A complete implementation by a user, for a panel whose upper and lower half are separate buffers:
 ///
 /// ```
 /// use fixel::{target::Target, window::Window};
 ///
-/// /// A panel whose upper and lower half are separate buffers.
 /// struct SplitPanel {
 ///     upper: [u16; 16 * 8],
 ///     lower: [u16; 16 * 8],
@@ -126,8 +124,9 @@ impl<P: Copy> Target for Buffer<'_, P> {
 
     #[inline(always)]
     fn row(&mut self, row: i32) -> &mut [P] {
-        let start = (row - self.window.top) as usize * self.stride;
-        let width = (self.window.right - self.window.left) as usize;
+        // Rows off the window wrap to a start that is past the end, or hold other pixels of the same buffer.
+        let start = (row.wrapping_sub(self.window.top) as usize).wrapping_mul(self.stride);
+        let width = self.window.right.wrapping_sub(self.window.left) as usize;
         self.pixels
             .get_mut(start..)
             .and_then(|rest| rest.get_mut(..width))
@@ -139,8 +138,9 @@ impl<P: Copy> Target for Buffer<'_, P> {
 #[inline(always)]
 pub(crate) fn pixels<'t, C: Target>(target: &'t mut C, window: Window, span: &crate::span::Span) -> &'t mut [C::Pixel] {
     let row = target.row(span.row);
-    let skip = (span.left - window.left) as usize;
-    let count = (span.right - span.left) as usize;
+    // A span lies on the window; wrapping keeps windows of any size from overflowing.
+    let skip = span.left.wrapping_sub(window.left) as u32 as usize;
+    let count = span.right.wrapping_sub(span.left) as u32 as usize;
     row.get_mut(skip..)
         .and_then(|rest| rest.get_mut(..count))
         .unwrap_or_default()

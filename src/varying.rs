@@ -1,9 +1,8 @@
 //! What a primitive carries from its corners to its pixels: nothing, values linear over the screen, or values in
 //! perspective. Chosen by type, so that a draw pays only for what it carries.
 
-use crate::gradient::{Basis, EXTRA_BITS, Plane, Ramp};
+use crate::gradient::{Basis, EXTRA_BITS, Place, Plane, Ramp};
 use crate::num::reciprocal;
-use crate::span::Span;
 
 /// A kind of varying: `()`, [`Linear`], [`Perspective`].
 pub trait Varying: Copy {
@@ -17,7 +16,7 @@ pub trait Varying: Copy {
     /// Set up once per polygon; `corner(i)` for i in 0…count.
     fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> Self::Planes;
     /// At the first pixel of a span.
-    fn ramps(planes: &Self::Planes, span: &Span) -> Self::Ramps;
+    fn ramps(planes: &Self::Planes, place: &Place) -> Self::Ramps;
     /// At the current pixel.
     fn values(planes: &Self::Planes, ramps: &Self::Ramps) -> Self::Values;
     /// One pixel on.
@@ -33,7 +32,7 @@ impl Varying for () {
     #[inline(always)]
     fn planes(_: &Basis, _: usize, _: impl Fn(usize) -> Self) {}
     #[inline(always)]
-    fn ramps(_: &(), _: &Span) {}
+    fn ramps(_: &(), _: &Place) {}
     #[inline(always)]
     fn values(_: &(), _: &()) {}
     #[inline(always)]
@@ -63,8 +62,8 @@ impl<const N: usize> Varying for Linear<N> {
         planes(basis, count, |i| corner(i).0)
     }
     #[inline(always)]
-    fn ramps(planes: &[Plane; N], span: &Span) -> [Ramp<i32>; N] {
-        each(planes, |plane| plane.ramp(span))
+    fn ramps(planes: &[Plane; N], place: &Place) -> [Ramp<i32>; N] {
+        each(planes, |plane| plane.ramp(place))
     }
     #[inline(always)]
     fn values(_: &[Plane; N], ramps: &[Ramp<i32>; N]) -> [i32; N] {
@@ -81,8 +80,9 @@ impl<const N: usize> Varying for Linear<N> {
 /// Where all corners have the same w nothing is divided. With w of one sign the pixel's value lies in the range of the
 /// corners' values; with mixed signs 1/w passes through 0 inside the polygon, and the value saturates there.
 ///
-/// **Error**: 1/w and value/w are within 2^-27 of their largest corner value, and the quotient adds a unit or two, so that
-/// the value is within 2^-26·ρ of its largest plus 2 units, with ρ the largest 1/w of the polygon over that of the pixel.
+/// **Error**: 1/w and value/w are within 2^-27 of their largest corner value, and value/w is rounded to a unit at the
+/// corners. With ρ the largest 1/w of the polygon over that of the pixel, the value is within
+/// ρ·(2^-26·largest + 1) + 3 units + 2^-30·|value| (`tests/interpolation.rs`).
 ///
 /// ```
 /// use fixel::varying::Perspective;
@@ -156,10 +156,10 @@ impl<const N: usize> Varying for Perspective<N> {
     }
 
     #[inline(always)]
-    fn ramps(planes: &PerspectivePlanes<N>, span: &Span) -> PerspectiveRamps<N> {
+    fn ramps(planes: &PerspectivePlanes<N>, place: &Place) -> PerspectiveRamps<N> {
         PerspectiveRamps {
-            over_w: each(&planes.over_w, |plane| plane.fine_ramp(span)),
-            inverse: planes.inverse.fine_ramp(span),
+            over_w: each(&planes.over_w, |plane| plane.fine_ramp(place)),
+            inverse: planes.inverse.fine_ramp(place),
         }
     }
 
@@ -220,13 +220,12 @@ impl Divisor {
 #[inline]
 fn planes<const N: usize>(basis: &Basis, count: usize, corner: impl Fn(usize) -> [i32; N]) -> [Plane; N] {
     let [a, b, c] = basis.corners().map(&corner);
-    let mut ranges = ranges(count, corner).into_iter();
-    let mut corners = a.into_iter().zip(b).zip(c);
-    // All four iterators have N items.
-    core::array::from_fn(|_| {
-        let ((a, b), c) = corners.next().unwrap_or_default();
-        basis.plane([a, b, c], ranges.next().unwrap_or_default())
-    })
+    let mut planes = [Plane::default(); N];
+    let values = a.iter().zip(&b).zip(&c);
+    for ((plane, ((&a, &b), &c)), &range) in planes.iter_mut().zip(values).zip(&ranges(count, corner)) {
+        *plane = basis.plane([a, b, c], range);
+    }
+    planes
 }
 
 /// Least and largest of each value over the corners.
@@ -241,8 +240,12 @@ fn ranges<const N: usize>(count: usize, corner: impl Fn(usize) -> [i32; N]) -> [
     ranges
 }
 
-/// `array.each_ref().map(f)` that inlines.
+/// What `f` makes of every item. `array::map` is outlined at some optimisation levels, and copies the array to do it.
 #[inline(always)]
-fn each<'a, A, B, const N: usize>(array: &'a [A; N], f: impl FnMut(&'a A) -> B) -> [B; N] {
-    array.each_ref().map(f)
+fn each<A, B: Copy + Default, const N: usize>(array: &[A; N], mut f: impl FnMut(&A) -> B) -> [B; N] {
+    let mut results = [B::default(); N];
+    for (result, item) in results.iter_mut().zip(array) {
+        *result = f(item);
+    }
+    results
 }

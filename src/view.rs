@@ -128,8 +128,9 @@ impl<const N: usize> Carried for Perspective<N> {
                 values: over_w,
             };
         }
+        // At most 1 but for the rounding of three: far from overflow.
         let [a, b, c] = weights.shares;
-        let inverse = a + b + c;
+        let inverse = a.saturating_add(b).saturating_add(c);
         let values = match weights.pick(vertices) {
             Some(values) => values,
             None => over_w.map(|v| {
@@ -156,7 +157,8 @@ impl Weights {
                 *sum += share as i64 * v as i64;
             }
         }
-        sums.map(|s| (s >> 30) as i32)
+        // Three products of at most 2^30 and 2^31.
+        sums.map(|s| (s >> 30).clamp(i32::MIN as i64, i32::MAX as i64) as i32)
     }
 
     fn pick<V>(&self, [a, b, c]: [V; 3]) -> Option<V> {
@@ -248,7 +250,7 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         carried: [V::Vertex; 3],
     ) -> Option<Projected<V, N>> {
         let polygon = to_view(polygon, &self.viewport, self.depth_range, self.behind)?;
-        let weigh = Weigh::new(&polygon, vertex_w, V::KIND);
+        let weigh = Weigh::new(&polygon, vertex_w, V::KIND, self.behind);
         let place = |corner: &ClipCorner<T>| {
             let (x, y, depth) = self.viewport.place(corner.position, self.depth_range)?;
             let varying = V::mix(carried, weigh.weights(corner));
@@ -289,9 +291,22 @@ fn changes_sign<T: Word, const N: usize>(polygon: &Polygon<ClipCorner<T>, N>) ->
 struct Weigh<T> {
     /// w of the three vertices.
     vertex_w: [Scaled<T>; 3],
-    interpolation: Interpolation,
+    sharing: Sharing,
     /// Perspective: every corner's sum of |weight| over w is at most 2^magnitude, and the largest more than a quarter.
     magnitude: i32,
+}
+
+/// What the shares of a corner are in proportion to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sharing {
+    /// Nothing is carried.
+    Nothing,
+    /// weight·w of the vertex: linear over the screen.
+    Screen,
+    /// The weights: linear in clip space, for what has no place on the screen (formats: `.iv`, clipping).
+    ClipSpace,
+    /// weight/w of the corner.
+    Perspective,
 }
 
 impl<T: Word> Weigh<T> {
@@ -299,28 +314,30 @@ impl<T: Word> Weigh<T> {
         polygon: &Polygon<ClipCorner<T>, N>,
         vertex_w: [Scaled<T>; 3],
         interpolation: Interpolation,
+        behind: Behind,
     ) -> Self {
         let [a, b, c] = vertex_w;
-        let interpolation = match interpolation {
+        let in_front = |w: Scaled<T>| w.mantissas() > [T::ZERO];
+        let sharing = match interpolation {
+            Interpolation::Flat => Sharing::Nothing,
             // With the same w everywhere, linear in space is linear over the screen.
-            Interpolation::Perspective if a == b && b == c => Interpolation::Linear,
-            other => other,
+            Interpolation::Perspective if a != b || b != c => Sharing::Perspective,
+            _ if behind == Behind::Cut && !vertex_w.into_iter().all(in_front) => Sharing::ClipSpace,
+            _ => Sharing::Screen,
         };
         let mut magnitude = i32::MIN;
-        if interpolation == Interpolation::Perspective {
+        if sharing == Sharing::Perspective {
             for corner in polygon.iter() {
                 if let Some(over_w) = corner.weights.over(w_of(corner.position)) {
-                    let [x, y, z] = over_w
-                        .split()
-                        .map(|s| if s.mantissas() < [T::ZERO] { s.negated() } else { s });
-                    let sum = x.plus(y).plus(z);
-                    magnitude = magnitude.max(sum.exponent().saturating_add(T::BITS as i32));
+                    let absolute = |s: Scaled<T>| if s.mantissas() < [T::ZERO] { s.negated() } else { s };
+                    let [x, y, z] = over_w.split().map(absolute);
+                    magnitude = magnitude.max(x.plus(y).plus(z).exponent().saturating_add(T::BITS as i32));
                 }
             }
         }
         Weigh {
             vertex_w,
-            interpolation,
+            sharing,
             magnitude,
         }
     }
@@ -333,33 +350,38 @@ impl<T: Word> Weigh<T> {
             [a, b, _] if a == zero && b == zero => Some(2),
             _ => None,
         };
-        let w = w_of(corner.position);
-        let shares = match self.interpolation {
-            Interpolation::Flat => [0; 3],
+        let [a, b, c] = corner.weights.split();
+        let shares = match self.sharing {
+            Sharing::Nothing => [0; 3],
             // Σ weight·w of the vertices is the corner's w: the shares add up to 1.
-            Interpolation::Linear => {
-                let mut parts = corner.weights.split().into_iter().zip(self.vertex_w);
-                core::array::from_fn(|_| {
-                    let share = parts
-                        .next()
-                        .and_then(|(weight, vertex_w)| weight.times(vertex_w).over(w));
-                    share.map_or(0, |s| s.to_fixed(30) as i32)
-                })
+            Sharing::Screen => {
+                let [a_w, b_w, _] = self.vertex_w;
+                parts_of_one(a.times(a_w), b.times(b_w), w_of(corner.position))
             }
-            Interpolation::Perspective => {
-                let over_w = corner.weights.over(w).unwrap_or(Block::ZERO);
-                over_w
-                    .scaled(self.magnitude.saturating_neg())
-                    .split()
-                    .map(|s| s.to_fixed(30) as i32)
+            Sharing::ClipSpace => parts_of_one(a, b, a.plus(b).plus(c)),
+            Sharing::Perspective => {
+                let over_w = corner.weights.over(w_of(corner.position)).unwrap_or(Block::ZERO);
+                over_w.scaled(self.magnitude.saturating_neg()).split().map(share)
             }
         };
-        Weights {
-            shares,
-            vertex,
-            linear: self.interpolation == Interpolation::Linear,
-        }
+        let linear = matches!(self.sharing, Sharing::Screen | Sharing::ClipSpace);
+        Weights { shares, vertex, linear }
     }
+}
+
+/// a/whole, b/whole and what they leave of 1, each at most 1 either way.
+fn parts_of_one<T: Word>(a: Scaled<T>, b: Scaled<T>, whole: Scaled<T>) -> [i32; 3] {
+    let [a, b] = [a, b].map(|part| part.over(whole).map_or(0, share));
+    [
+        a,
+        b,
+        ((1i64 << 30) - a as i64 - b as i64).clamp(-1 << 30, 1 << 30) as i32,
+    ]
+}
+
+/// In units of 2^-30, within ±1.
+fn share<T: Word>(part: Scaled<T>) -> i32 {
+    part.to_fixed(30).clamp(-1 << 30, 1 << 30) as i32
 }
 
 fn w_of<T: Word>(position: Block<T, 4>) -> Scaled<T> {

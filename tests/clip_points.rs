@@ -150,7 +150,10 @@ fn on_the_edge<T: Word, W: Word>(
 ) -> BTreeSet<(i32, i32)> {
     let one = 1 << 30;
     let which = [[one, 0, 0], [0, one, 0], [0, 0, one]];
-    let vertices = order.map(|i| Vertex { position: eye[i], carried: which[i] });
+    let vertices = order.map(|i| Vertex {
+        position: eye[i],
+        carried: which[i],
+    });
     let mut positions = BTreeSet::new();
     view.project::<Perspective<3>>(&vertices, |polygon| {
         let on_edge = (0..polygon.count()).filter(|&i| polygon.varying(i).over_w[2] == 0);
@@ -188,13 +191,6 @@ fn seen() -> impl Strategy<Value = Seen> {
 /// Two triangles on either side of the edge a–b, each with its corners in every order.
 fn check_neighbours<T: Word, W: Word>(seen: &Seen, [a, b, c, d]: [Point; 4]) -> Result<(), TestCaseError> {
     let (left, bottom) = seen.corner;
-    // A quadrangle whose corners have w of both signs is not convex once it is divided: which of its corners the
-    // depth range cuts off is nobody's promise.
-    let user_planes = if seen.behind == Behind::Cut {
-        &seen.planes[..]
-    } else {
-        &[]
-    };
     let mut planes = Planes::default();
     seen.planes.iter().for_each(|&p| planes.push(block(p)).unwrap());
     let view = View::<T, W, 3> {

@@ -7,6 +7,14 @@ use fixel_host::compare::{Class, Comparison, compare};
 use fixel_host::fixed::Fixed;
 use fixel_host::reference::Reference;
 
+/// A vertex without a normal or a place on a texture.
+const BARE: Vertex = Vertex {
+    position: [0.0; 4],
+    color: [1.0; 3],
+    normal: None,
+    texcoord: [0.0; 2],
+};
+
 const SIZE: u32 = 64;
 const SCENES: u64 = 150;
 const TRIANGLES: u32 = 12;
@@ -56,6 +64,7 @@ impl Random {
         Vertex {
             position: [x * w, y * w, z * w, w],
             color: self.color(1.0),
+            ..BARE
         }
     }
 }
@@ -135,6 +144,7 @@ fn slivers() {
         let ground = ground.map(|[x, y]| Vertex {
             position: [x, y, 0.9, 1.0],
             color: random.color(1.0),
+            ..BARE
         });
         triangles(random, back_end, |random| {
             if random.one_in(8) {
@@ -246,6 +256,7 @@ fn cameras_and_clip_planes() {
                 Vertex {
                     position: [x, y, z, 1.0],
                     color: random.color(1.0),
+                    ..BARE
                 }
             })
         })
@@ -280,6 +291,7 @@ fn meshes_of_shared_edges() {
                 Vertex {
                     position: [x * w, y * w, random.within(0.2, 0.8) * w, w],
                     color: random.color(1.0),
+                    ..BARE
                 }
             })
             .collect();

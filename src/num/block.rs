@@ -55,8 +55,8 @@ impl<T: Word, const N: usize> Block<T, N> {
         }
         let mantissas = if bits > T::BITS {
             let shift = bits - T::BITS;
-            let half = T::ONE.widen() << (shift - 1);
-            values.map(|v| ((v + half) >> shift).narrow())
+            // Halves upwards, without adding the half to numbers that fill their word.
+            values.map(|v| (((v >> (shift - 1)) + T::ONE.widen()) >> 1).narrow())
         } else {
             values.map(|v| (v << (T::BITS - bits)).narrow())
         };

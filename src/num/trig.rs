@@ -121,11 +121,14 @@ pub enum Micromath {}
 #[cfg(feature = "micromath")]
 impl Trigonometry for Micromath {
     fn sin_cos<T: Word>(angle: Angle) -> (T, T) {
-        use micromath::F32Ext;
         // The top 24 bits are what an f32 holds, as −½…½ turn.
         let radians = ((angle.0 as i64) >> 40) as f32 * (core::f32::consts::TAU / (1 << 24) as f32);
         let to_word = |v: f32| T::from_q62((v.clamp(-1.0, 1.0) * (1i64 << 62) as f32) as i64);
-        (to_word(radians.sin()), to_word(radians.cos()))
+        // By full name: where std is linked, as in tests, f32 has a sine of its own.
+        (
+            to_word(micromath::F32Ext::sin(radians)),
+            to_word(micromath::F32Ext::cos(radians)),
+        )
     }
 }
 

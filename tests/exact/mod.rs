@@ -7,6 +7,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
 use fixel::num::{Block, Scaled, Word};
+use proptest::prelude::*;
 
 /// ±digits · 2^exponent, digits in base 2^32 from the lowest on.
 #[derive(Debug, Clone)]
@@ -60,7 +61,10 @@ impl Exact {
 
     /// Cut towards zero to a multiple of 2^-bits, so that a long computation stays small.
     pub fn cut(mut self, bits: i64) -> Self {
-        while self.exponent < -bits && !self.digits.is_empty() {
+        while self.exponent < -bits {
+            if self.is_zero() {
+                return Self::zero();
+            }
             let drop = (-bits - self.exponent).min(31) as u32;
             let mut carry = 0u64;
             for digit in self.digits.iter_mut().rev() {
@@ -232,4 +236,71 @@ pub fn float<T: Word>(number: Scaled<T>) -> f64 {
 /// A block as floats.
 pub fn floats<T: Word, const N: usize>(block: Block<T, N>) -> [f64; N] {
     block.split().map(float)
+}
+
+/// `count` units of 2^-BITS.
+pub fn units<T: Word>(count: i64) -> Exact {
+    Exact::new(count, -(T::BITS as i32))
+}
+
+/// The largest magnitude.
+pub fn largest<'a>(numbers: impl IntoIterator<Item = &'a Exact>) -> Exact {
+    numbers
+        .into_iter()
+        .cloned()
+        .map(Exact::abs)
+        .fold(Exact::zero(), Exact::max)
+}
+
+/// Every number of `found` within `count` units of the largest of `truth`, and `slack`.
+pub fn check_near<T: Word, const N: usize>(
+    found: Block<T, N>,
+    truth: &[Exact; N],
+    count: i64,
+    slack: &Exact,
+) -> Result<(), TestCaseError> {
+    let bound = &(&units::<T>(count) * &largest(truth)) + slack;
+    for (found, truth) in exacts(found).iter().zip(truth) {
+        let off = (found - truth).abs();
+        prop_assert!(
+            off <= bound,
+            "{} is not {}: off by {}",
+            found.to_f64(),
+            truth.to_f64(),
+            off.to_f64()
+        );
+    }
+    Ok(())
+}
+
+pub fn dot(a: &[Exact], b: &[Exact]) -> Exact {
+    a.iter().zip(b).fold(Exact::zero(), |sum, (a, b)| &sum + &(a * b))
+}
+
+pub fn cross(a: &[Exact; 3], b: &[Exact; 3]) -> [Exact; 3] {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &(&a[i] * &b[j]) - &(&a[j] * &b[i]))
+}
+
+/// The mantissas of both words and a scale: huge, tiny, ordinary.
+#[derive(Debug, Clone, Copy)]
+pub struct Number(i64, i32);
+
+pub fn number() -> impl Strategy<Value = Number> + Clone {
+    let mantissa = prop_oneof![4 => -(1i64 << 62)..1 << 62, 1 => Just(0), 2 => -9..9i64, 1 => Just(1 << 62)];
+    let scale = prop_oneof![6 => -70..-50i32, 1 => -1000..1000i32];
+    (mantissa, scale).prop_map(|(m, e)| Number(m, e))
+}
+
+/// Rounded to the word: an exact number from here on.
+pub fn word<T: Word>(Number(m, e): Number) -> Scaled<T> {
+    let part = |shift: u32, mask: i64| Scaled::<T>::from_integer((m >> shift & mask) as i32).scaled(shift as i32);
+    Scaled::<T>::from_integer((m >> 60) as i32)
+        .scaled(60)
+        .plus(part(30, (1 << 30) - 1))
+        .plus(part(0, (1 << 30) - 1))
+        .scaled(e)
+}
+
+pub fn gathered<T: Word, const N: usize>(numbers: [Number; N]) -> Block<T, N> {
+    Block::gather(numbers.map(word))
 }

@@ -98,7 +98,10 @@ pub fn values<W: Word, V: Varying>(triangle: &Triangle<V>, window: Window) -> Ve
     let mut target = Buffer::strip(&mut pixels, window).unwrap();
     let area = doubled_area(triangle);
     draw::polygon::<W, _, _, _, _>(&mut target, &mut NoDepth, triangle, area, &Keep(PhantomData));
-    positions(window).zip(pixels).filter_map(|(at, v)| Some((at, v?))).collect()
+    positions(window)
+        .zip(pixels)
+        .filter_map(|(at, v)| Some((at, v?)))
+        .collect()
 }
 
 /// All pixels of the window in the order of a buffer.
@@ -106,22 +109,23 @@ pub fn positions(window: Window) -> impl Iterator<Item = (i32, i32)> {
     (window.top..window.bottom).flat_map(move |y| (window.left..window.right).map(move |x| (x, y)))
 }
 
-/// How far a value of [`Linear`](fixel::varying::Linear) or a depth may be from the exact one at (x, y), in its own
-/// units, as `gradient` states it: the steps from the anchor, corner 0's pixel, then one unit per pixel of the span.
-/// `None` where a step is saturated: there the range of the corners is all that is promised.
-pub fn stated_error(corners: [Point; 3], values: [i64; 3], (x, y): (i32, i32)) -> Option<f64> {
-    let [a, b, c] = corners.map(|(x, y)| (x as f64, y as f64));
-    let [va, vb, vc] = values.map(|v| v as f64);
-    let area = (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
-    let step_x = 256.0 * ((vb - va) * (c.1 - a.1) - (vc - va) * (b.1 - a.1)) / area;
-    let step_y = 256.0 * ((vc - va) * (b.0 - a.0) - (vb - va) * (c.0 - a.0)) / area;
-    let longest = {
-        // Columns from one side of the triangle to the other bound those along a span.
-        let xs = corners.map(|p| p.0 >> 8);
-        (xs.iter().max().unwrap() - xs.iter().min().unwrap()) as f64
-    };
-    let columns = ((x - (corners[0].0 >> 8)).abs() as f64 + longest).min(longest);
+/// How far a value linear over the screen may be from the exact one at (x, y), in its own units, as `gradient` states
+/// it: 2^-14 for each step from the anchor (corner 0's pixel), and 2^-24 of the range of the corners, slivers included.
+pub fn fine_error(corners: [Point; 3], values: [i64; 3], (_, y): (i32, i32)) -> f64 {
+    let range = (values.iter().max().unwrap() - values.iter().min().unwrap()) as f64;
+    // To the span's start and along it; one more for the anchor's place in its pixel.
+    let columns = 2.0 * width(corners) + 1.0;
     let rows = (y - (corners[0].1 >> 8)).abs() as f64 + 1.0;
-    let steps = (columns + rows) / 16384.0 + (step_x.abs() * columns + step_y.abs() * rows) * 2f64.powi(-28);
-    (step_x.abs().max(step_y.abs()) < 2f64.powi(31)).then_some(steps + longest + 1.0)
+    (columns + rows) * 2f64.powi(-14) + range * 2f64.powi(-24)
+}
+
+/// The same for 32-bit stepping: a unit for the start, and one more for each pixel along the span.
+pub fn stated_error(corners: [Point; 3], values: [i64; 3], at: (i32, i32)) -> f64 {
+    fine_error(corners, values, at) + width(corners) + 1.0
+}
+
+/// Columns that the triangle crosses, not counting the first.
+fn width(corners: [Point; 3]) -> f64 {
+    let columns = corners.map(|p| p.0 >> 8);
+    (columns.iter().max().unwrap() - columns.iter().min().unwrap()) as f64
 }
