@@ -13,9 +13,9 @@ use std::array::from_fn;
 
 use super::interval::Interval;
 use super::linear::{Frame, Linear, Range};
-use super::stated::{DEPTH_PER_COLUMN, GUARD, PERSPECTIVE, WIDE_GUARD};
+use super::stated::{DEPTH_PER_COLUMN, GUARD, INVERSE, MIXED_HEADROOM, PERSPECTIVE, WIDE_GUARD};
 use crate::reference::log::{Corner, Polygon};
-use crate::reference::material::Material;
+use crate::reference::material::{Fill, Material};
 
 /// The functions through a triangle's corners.
 #[derive(Debug, Clone, Copy)]
@@ -135,7 +135,7 @@ impl<'a> Piece<'a> {
         lowering: f64,
     ) -> Option<Range<N>> {
         let least = self.least_q(p);
-        if self.polygon.mixed && least <= PERSPECTIVE * self.greatest_q {
+        if self.polygon.mixed && least <= INVERSE * self.greatest_q {
             return None;
         }
         let numerators = self.numerators(of);
@@ -171,7 +171,11 @@ impl<'a> Piece<'a> {
     fn interpolation(&self, numerators: Option<&[Linear]>, greatest: f64, least: f64) -> f64 {
         let weights = Interval::of(self.corners.map(|c| c.weight_error)).high;
         let noise = self.fit.map_or(0.0, |fit| fit.frame.noise);
-        let relative = PERSPECTIVE + 2.0 * weights + self.walk + noise;
+        // Values with headroom are rounded at the corners to 2⁻¹⁹ of the largest; colours that are not lit have none.
+        let material = &self.polygon.material;
+        let headroom = self.polygon.mixed && (material.is_lit() || matches!(material.fill, Fill::Textured(_)));
+        let units = if headroom { MIXED_HEADROOM / 8.0 } else { 1.0 };
+        let relative = PERSPECTIVE * units + 2.0 * weights + self.walk + noise;
         let swing = |n: &[Linear]| Interval::of(n.iter().map(|n| n.swing(self.extents))).high.max(0.0);
         let q = self.fit.map_or(0.0, |fit| fit.q.swing(self.extents));
         let swing = numerators.map_or(0.0, swing) + greatest * q;

@@ -23,7 +23,10 @@ pub const COLOR_LEVELS: f64 = 1.0 / 256.0;
 /// on, that adds up to as much of |gradient in x| · columns + |gradient in y| · rows, which matters for slivers.
 pub const GRADIENT: f64 = 1.0 / (1u64 << 28) as f64;
 
-/// Perspective: error of the interpolated 1/w and of the numerators against their largest corner value.
+/// Error of the interpolated 1/w against its largest corner value.
+pub const INVERSE: f64 = 1.0 / (1u64 << 26) as f64;
+
+/// Perspective: error of the numerators against their largest corner value, for a 1/w of the largest.
 pub const PERSPECTIVE: f64 = 1.0 / (1u64 << 26) as f64;
 
 /// Depth is rounded to the nearest of 65535 steps. So two depths that decide a pixel may be one step apart.
@@ -82,3 +85,6 @@ pub const LIT: f64 = 1.0 / (1u64 << 20) as f64;
 /// of a hundred lights of colours up to 3 and exponents up to 240 add up to 1/100 level; more than two levels takes a power that
 /// is steep, or brightness beyond all reason.
 pub const LIT_LEVELS: f64 = 2.0;
+
+/// Where w has both signs the core carries values in units so much larger: see the headroom of the fixed back end.
+pub const MIXED_HEADROOM: f64 = 1024.0;

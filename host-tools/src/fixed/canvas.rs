@@ -48,6 +48,15 @@ impl<W: Word> Canvas<W> {
         self.planes.push(plane).map_err(|e| format!("{e} ({PLANES})"))
     }
 
+    /// Whether some of the points have w < 0 on the screen and some w > 0.
+    pub fn divides_by_both_signs(&self, eye: [Block<i64, 4>; 3]) -> bool {
+        let w = eye.map(|p| {
+            let [.., w] = self.view.projection.transform(p).mantissas();
+            w
+        });
+        w.iter().any(|&w| w < 0) && w.iter().any(|&w| w > 0)
+    }
+
     /// Draws one triangle, given in eye space.
     pub fn draw<F>(&mut self, eye: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
     where

@@ -15,6 +15,18 @@ pub struct Corner {
     pub texcoord: [Scaled<i64>; 2],
 }
 
+impl Corner {
+    /// Colour and normal in units 2^`color` and 2^`normal` times as large.
+    pub fn with_headroom(self, color: u32, normal: u32) -> Self {
+        let coarser = |v: i32, bits: u32| (v + ((1 << bits) >> 1)) >> bits;
+        Corner {
+            color: self.color.map(|c| coarser(c, color)),
+            normal: self.normal.map(|n| n.map(|c| coarser(c, normal))),
+            ..self
+        }
+    }
+}
+
 /// The same direction with length 1 in units of 2^-30; `None` for the zero vector.
 pub fn unit(direction: Block<i64, 3>) -> Option<[i32; 3]> {
     let unit = direction.unit()?;
@@ -32,10 +44,10 @@ pub fn perpendicular([a, b, c]: [Block<i64, 3>; 3]) -> [i32; 3] {
     unit(b.minus(a).cross(c.minus(a))).unwrap_or_default()
 }
 
-/// Places in a unit of their own, 2^exponent, in which the largest coordinate lies in 2^29…2^30.
-pub fn in_own_unit(places: [Block<i64, 3>; 3]) -> ([[i32; 3]; 3], i32) {
+/// Places in a unit of their own, 2^exponent, in which the largest coordinate lies in 2^29…2^30, less the headroom.
+pub fn in_own_unit(places: [Block<i64, 3>; 3], headroom: u32) -> ([[i32; 3]; 3], i32) {
     let exponents = places.iter().filter(|p| !p.is_zero()).map(Block::exponent);
-    let exponent = exponents.max().unwrap_or(0).saturating_add(32);
+    let exponent = exponents.max().unwrap_or(0).saturating_add(32 + headroom as i32);
     let fixed = |p: Block<i64, 3>| p.scaled(exponent.saturating_neg()).split().map(|c| nearest(c, 0));
     (places.map(fixed), exponent)
 }
@@ -45,7 +57,7 @@ pub fn in_own_unit(places: [Block<i64, 3>; 3]) -> ([[i32; 3]; 3], i32) {
 ///
 /// # Errors
 /// Where they are more than 2^31 texels apart.
-pub fn texels(corners: &[Corner; 3], size: [u16; 2]) -> Result<([[i32; 2]; 3], u32), String> {
+pub fn texels(corners: &[Corner; 3], size: [u16; 2], headroom: u32) -> Result<([[i32; 2]; 3], u32), String> {
     let [a, b, c] = corners.map(|corner| corner.texcoord);
     let [[sa, ta], [sb, tb], [sc, tc]] = [a, b, c];
     let axes = [
@@ -59,6 +71,7 @@ pub fn texels(corners: &[Corner; 3], size: [u16; 2]) -> Result<([[i32; 2]; 3], u
     if fraction_bits < 0 {
         return Err("texture coordinates of one triangle that are more than 2^31 texels apart".into());
     }
+    let fraction_bits = (fraction_bits - headroom as i32).max(0);
     let [[sa, sb, sc], [ta, tb, tc]] = [s, t].map(|axis| axis.split().map(|c| nearest(c, fraction_bits)));
     Ok(([[sa, ta], [sb, tb], [sc, tc]], fraction_bits as u32))
 }
@@ -100,8 +113,8 @@ mod tests {
 
     #[test]
     fn whole_textures_are_taken_off() {
-        let (near, bits) = texels(&corners([0.0, 1.0, 0.5], [0.0, 0.25, 1.0]), [8, 5]).unwrap();
-        let (far, same) = texels(&corners([1e6, 1e6 + 1.0, 1e6 + 0.5], [-7.0, -6.75, -6.0]), [8, 5]).unwrap();
+        let (near, bits) = texels(&corners([0.0, 1.0, 0.5], [0.0, 0.25, 1.0]), [8, 5], 0).unwrap();
+        let (far, same) = texels(&corners([1e6, 1e6 + 1.0, 1e6 + 0.5], [-7.0, -6.75, -6.0]), [8, 5], 0).unwrap();
         // 8 texels are 2^61 · 2^-58: taken for less than 2^4, they get 26 bits of 30.
         assert_eq!((bits, same), (26, 26));
         for (near, far) in near.into_iter().zip(far) {
@@ -114,14 +127,14 @@ mod tests {
 
     #[test]
     fn coordinates_that_do_not_fit_are_refused() {
-        assert!(texels(&corners([0.0, 1e12, 0.0], [0.0; 3]), [8, 8]).is_err());
-        assert!(texels(&corners([1e300; 3], [0.0; 3]), [8, 8]).is_err());
+        assert!(texels(&corners([0.0, 1e12, 0.0], [0.0; 3]), [8, 8], 0).is_err());
+        assert!(texels(&corners([1e300; 3], [0.0; 3]), [8, 8], 0).is_err());
     }
 
     #[test]
     fn the_largest_coordinate_fills_its_word() {
         let places = [[0.5, -3.0, 0.25], [1.0, 0.0, 0.0], [0.0; 3]].map(lower::block);
-        let (fixed, exponent) = in_own_unit(places);
+        let (fixed, exponent) = in_own_unit(places, 0);
         assert_eq!(exponent, -28);
         assert_eq!(fixed, [[1 << 27, -3 << 28, 1 << 26], [1 << 28, 0, 0], [0; 3]]);
     }

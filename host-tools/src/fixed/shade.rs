@@ -49,6 +49,10 @@ struct Work<'a, W> {
     light: Option<Light<'a>>,
 }
 
+/// Bits that are left free above what the corners carry where w has both signs: values then leave the corners' range, and
+/// beyond 2^31 they saturate, each by itself, which turns directions. A normal or a texel is right up to 2^11 of the range.
+const HEADROOM: u32 = 10;
+
 /// What light needs to know of a triangle.
 #[derive(Clone, Copy)]
 struct Light<'a> {
@@ -61,7 +65,7 @@ struct Light<'a> {
 }
 
 impl<'a> Light<'a> {
-    fn new(lights: &'a mut AtScale<'_>, flat_normal: bool, corners: &[Corner; 3]) -> Option<Self> {
+    fn new(lights: &'a mut AtScale<'_>, flat_normal: bool, corners: &[Corner; 3], headroom: u32) -> Option<Self> {
         let lamps = lights.lamps();
         if lamps.is_empty() {
             return None;
@@ -69,7 +73,7 @@ impl<'a> Light<'a> {
         let places = corners.map(|c| corner::place(c.eye));
         let own = flat_normal || corners.iter().any(|c| c.normal.is_none());
         let flat_normal = own.then(|| corner::perpendicular(places));
-        let (places, exponent) = corner::in_own_unit(places);
+        let (places, exponent) = corner::in_own_unit(places, headroom);
         Some(Light {
             lit: lights.lit(exponent),
             lamps,
@@ -90,23 +94,36 @@ pub fn triangle<W: Word>(
     corners: &[Corner; 3],
     primitive: u32,
 ) -> Result<(), String> {
+    let headroom = if canvas.divides_by_both_signs(corners.map(|c| c.eye)) {
+        HEADROOM
+    } else {
+        0
+    };
+    // Colours that are not lit saturate beyond 64 times full, and full is where their bytes end.
+    let interpolated = matches!(look.paint, Paint::Gouraud | Paint::Decal(_));
+    let lit = interpolated && !lights.lamps().is_empty();
+    let corners = &corners.map(|c| c.with_headroom(if lit { headroom } else { 0 }, headroom));
+    let look = Look {
+        shift: look.shift + if lit { headroom as i32 } else { 0 },
+        ..look
+    };
     let work = Work {
         canvas,
         look,
         corners,
         primitive,
-        light: Light::new(lights, look.flat_normal, corners),
+        light: Light::new(lights, look.flat_normal, corners, headroom),
     };
     let colors = corners.map(|c| c.color);
     match look.paint {
         Paint::Plain(color) => work.plain(color),
         Paint::Gouraud => work.surface::<_, 3, 6, 9>(Gouraud, colors),
         Paint::Textured(texture) => {
-            let (st, sampler) = sampler(texture, corners)?;
+            let (st, sampler) = sampler(texture, corners, headroom)?;
             work.surface::<_, 2, 5, 8>(Textured(sampler), st);
         }
         Paint::Decal(texture) => {
-            let (st, sampler) = sampler(texture, corners)?;
+            let (st, sampler) = sampler(texture, corners, headroom)?;
             let shift = look.shift.unsigned_abs();
             let mut st = st.into_iter();
             let carried = colors.map(|[r, g, b]| {
@@ -120,8 +137,12 @@ pub fn triangle<W: Word>(
 }
 
 /// The corners' coordinates in texels, and what looks them up.
-fn sampler<'t>(texture: Texture<'t, Rgba8888>, corners: &[Corner; 3]) -> Result<([[i32; 2]; 3], Sampler<'t>), String> {
-    let (st, fraction_bits) = corner::texels(corners, [texture.width(), texture.height()])?;
+fn sampler<'t>(
+    texture: Texture<'t, Rgba8888>,
+    corners: &[Corner; 3],
+    headroom: u32,
+) -> Result<([[i32; 2]; 3], Sampler<'t>), String> {
+    let (st, fraction_bits) = corner::texels(corners, [texture.width(), texture.height()], headroom)?;
     Ok((st, Sampler::new(texture, fraction_bits)))
 }
 

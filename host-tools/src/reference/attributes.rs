@@ -82,8 +82,9 @@ impl Bounds {
     }
 
     /// What carrying the attributes of a primitive costs in the core: integers of 30 bits at the primitive's own scale,
-    /// one for its colours, one for its texture coordinates, one for its eye positions; unit normals at a fixed one.
-    pub fn of_carrying<'a>(corners: impl Iterator<Item = &'a Attributes>) -> Self {
+    /// one for its colours, one for its texture coordinates, one for its eye positions; unit normals at a fixed one; all in
+    /// units `headroom` times as large.
+    pub fn of_carrying<'a>(corners: impl Iterator<Item = &'a Attributes>, headroom: f64) -> Self {
         let mut largest = Self::default();
         let size = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         for at in corners {
@@ -96,10 +97,10 @@ impl Bounds {
         }
         let diagonal = 3f64.sqrt();
         Self {
-            color: CARRIED * largest.color,
-            texcoord: CARRIED * largest.texcoord,
-            normal: CARRIED_NORMAL * diagonal,
-            eye: CARRIED * largest.eye * diagonal,
+            color: headroom * CARRIED * largest.color,
+            texcoord: headroom * CARRIED * largest.texcoord,
+            normal: headroom * CARRIED_NORMAL * diagonal,
+            eye: headroom * CARRIED * largest.eye * diagonal,
         }
     }
 }

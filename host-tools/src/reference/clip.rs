@@ -32,7 +32,7 @@ impl Corner {
             error: mix(self.error, other.error) + 2.0 * (FIXED_PRODUCT + FLOAT_PRODUCT) * largest,
             // The same for integers at the primitive's scale.
             at_error: (self.at_error.max(&other.at_error))
-                .plus(&Bounds::of_carrying([&self.at, &other.at].into_iter())),
+                .plus(&Bounds::of_carrying([&self.at, &other.at].into_iter(), 1.0)),
         }
     }
 }

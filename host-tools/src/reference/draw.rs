@@ -10,6 +10,7 @@ use super::material::{Fill, Material};
 use super::raster::{self, Point, Q, REST, X, Y, Z};
 use super::vertex::{Placed, any_direction, may_vanish};
 use super::{Pixel, Reference};
+use crate::compare::stated::MIXED_HEADROOM;
 
 /// Numbers of a point with a colour.
 const COLORED: usize = REST + 3;
@@ -21,7 +22,9 @@ impl Reference {
     pub(super) fn primitive(&mut self, number: u32, placed: [Placed; 3], material: &Arc<Material>) {
         let mut triangle = placed.map(|p| p.corner);
         let material = &self.finished(&mut triangle, &placed, material);
-        let carrying = Bounds::of_carrying(triangle.iter().map(|c| &c.at));
+        let w = triangle.each_ref().map(|c| self.projection.matrix.apply(&c.eye)[3]);
+        let mixed = w.iter().any(|&w| w < 0.0) && w.iter().any(|&w| w > 0.0);
+        let carrying = Bounds::of_carrying(triangle.iter().map(|c| &c.at), if mixed { MIXED_HEADROOM } else { 1.0 });
         for corner in &mut triangle {
             corner.at_error = corner.at_error.plus(&carrying);
         }
