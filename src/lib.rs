@@ -39,6 +39,8 @@
 //!
 //! **View**: vertices in eye space, clipped, projected and drawn by [`draw::primitive`]; see [`view::View`].
 //!
+//! For fragment programs there are [`texture`]s and [`light`]s, for curved surfaces Bézier [`patch`]es.
+//!
 //! # What a draw pays for
 //!
 //! Everything is chosen by type: [`NoDepth`](depth::NoDepth) or a depth buffer and its comparison, varyings
