@@ -2,9 +2,12 @@
 //!
 //! Each kind of scene stresses one thing; the seeds are fixed, so a failure names a scene that can be drawn again.
 
-use fixel_host::backend::{BackEnd, Surface, Vertex};
+use std::sync::Arc;
+
+use fixel_host::backend::{BackEnd, Patch, Surface, Vertex};
 use fixel_host::compare::{Class, Comparison, compare};
 use fixel_host::fixed::Fixed;
+use fixel_host::picture::Picture;
 use fixel_host::reference::Reference;
 
 /// A vertex without a normal or a place on a texture.
@@ -96,7 +99,10 @@ fn compared(
     }
     let sum = |of: &dyn Fn(&Comparison) -> u64| all.iter().map(of).sum::<u64>();
     let drawn = sum(&|c| c.pixels_drawn);
-    let hidden = sum(&|c| c.explained.edge + c.explained.depth + c.explained.pole);
+    let hidden = sum(&|c| {
+        let e = c.explained;
+        e.edge + e.depth + e.texel + e.pole + e.steep
+    });
     println!(
         "{kind}: drawn {drawn}, colour {}, edge {}, depth {}, pole {}",
         sum(&|c| c.explained.colour),
@@ -303,5 +309,93 @@ fn meshes_of_shared_edges() {
             }
         }
         Ok(())
+    });
+}
+
+/// A texture of random texels, alpha included.
+fn texture(random: &mut Random) -> Arc<Picture> {
+    let (width, height) = [(8, 8), (7, 5), (1, 1), (64, 3)][(random.unit() * 4.0) as usize];
+    let texel = |random: &mut Random| std::array::from_fn(|_| (random.unit() * 256.0) as u8);
+    let texels = (0..width * height).map(|_| texel(random)).collect();
+    Arc::new(Picture::new(width, height, texels))
+}
+
+/// Lights, some bright or negative, highlights, textures, decals.
+fn furnish(random: &mut Random, back_end: &mut dyn BackEnd) -> Result<(), String> {
+    back_end.texture(&texture(random))?;
+    if random.one_in(3) {
+        back_end.decals();
+    }
+    if random.one_in(4) {
+        back_end.flat_normals();
+    }
+    if random.one_in(2) {
+        back_end.shininess(10f64.powf(random.within(-1.0, 2.4)))?;
+    }
+    for _ in 0..3 {
+        let [x, y, z] = [0; 3].map(|_| random.within(-1.5, 1.5));
+        let color = random.color(1.6);
+        match (random.unit() * 3.0) as u32 {
+            0 => back_end.sun([x, y, z], color)?,
+            1 => back_end.bulb([x, y, z, 1.0], color)?,
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// A vertex that has everything, or no normal.
+fn rich(random: &mut Random, w: f64) -> Vertex {
+    let normal = [0; 3].map(|_| random.within(-1.5, 1.5));
+    Vertex {
+        normal: (!random.one_in(5)).then_some(normal),
+        texcoord: [0; 2].map(|_| random.within(-3.0, 3.0)),
+        ..random.vertex(1.3, w)
+    }
+}
+
+/// Draws triangles and patches of every surface; `w` gives each vertex its own.
+fn furnished(random: &mut Random, back_end: &mut dyn BackEnd, w: impl Fn(&mut Random) -> f64) -> Result<(), String> {
+    furnish(random, back_end)?;
+    let vertex = |random: &mut Random| {
+        let w = w(random);
+        rich(random, w)
+    };
+    let mut number = 1;
+    for _ in 0..TRIANGLES {
+        let corners = std::array::from_fn(|_| vertex(random));
+        let surface = if random.one_in(2) {
+            Surface::Textured
+        } else {
+            random.surface()
+        };
+        back_end.triangle(number, corners, surface)?;
+        number += 1;
+    }
+    let level = 1 + (random.unit() * 3.0) as u32;
+    let (four_rows, three_sides) = (
+        std::array::from_fn(|_| vertex(random)),
+        std::array::from_fn(|_| vertex(random)),
+    );
+    let patch = if random.one_in(2) {
+        Patch::Rectangular(&four_rows)
+    } else {
+        Patch::Triangular(&three_sides)
+    };
+    let surface = random.surface();
+    back_end.patch(number, level, patch, surface)
+}
+
+#[test]
+fn lights_textures_and_patches() {
+    compared("lights_textures_and_patches", 50, |random, back_end| {
+        furnished(random, back_end, |_| 1.0)
+    });
+}
+
+#[test]
+fn lights_textures_and_patches_in_perspective() {
+    compared("lights_textures_and_patches_in_perspective", 50, |random, back_end| {
+        furnished(random, back_end, |random| random.within(0.2, 2.0))
     });
 }
