@@ -107,7 +107,7 @@ fn fraction<T: Word>(a: T, b: T) -> T {
 }
 
 /// `micromath`'s f32 sine and cosine: error at most 1.2·10⁻³ (`tests/trigonometry.rs`). For firmware that links
-/// micromath anyway and rotates by whole objects; [`SineTable`] is ten thousand times more accurate and needs no float.
+/// micromath anyway and rotates by whole objects; [`SineTable`] is far more accurate and needs no float.
 ///
 /// ```
 /// use fixel::num::{Angle, Micromath, Trigonometry};
