@@ -104,11 +104,13 @@ fn compared(
         e.edge + e.depth + e.texel + e.pole + e.steep
     });
     println!(
-        "{kind}: drawn {drawn}, colour {}, edge {}, depth {}, pole {}",
+        "{kind}: drawn {drawn}, colour {}, edge {}, depth {}, texel {}, pole {}, steep {}",
         sum(&|c| c.explained.colour),
         sum(&|c| c.explained.edge),
         sum(&|c| c.explained.depth),
+        sum(&|c| c.explained.texel),
         sum(&|c| c.explained.pole),
+        sum(&|c| c.explained.steep),
     );
     let some = bad.iter().take(5).map(String::as_str).collect::<Vec<_>>().join("\n");
     assert!(
@@ -388,14 +390,16 @@ fn furnished(random: &mut Random, back_end: &mut dyn BackEnd, w: impl Fn(&mut Ra
 
 #[test]
 fn lights_textures_and_patches() {
-    compared("lights_textures_and_patches", 50, |random, back_end| {
+    compared("lights_textures_and_patches", 1000, |random, back_end| {
         furnished(random, back_end, |_| 1.0)
     });
 }
 
 #[test]
 fn lights_textures_and_patches_in_perspective() {
-    compared("lights_textures_and_patches_in_perspective", 50, |random, back_end| {
-        furnished(random, back_end, |random| random.within(0.2, 2.0))
-    });
+    compared(
+        "lights_textures_and_patches_in_perspective",
+        1000,
+        |random, back_end| furnished(random, back_end, |random| random.within(0.2, 2.0)),
+    );
 }
