@@ -39,7 +39,7 @@ impl Against {
         };
         let read = |file: &Path| {
             let picture = files::read_picture(file)?;
-            let (width, height) = (loaded.scene.width, loaded.scene.height);
+            let (width, height) = loaded.scene.size();
             if picture.size() == (width, height) {
                 return Ok(picture);
             }

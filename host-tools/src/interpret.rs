@@ -1,7 +1,8 @@
-//! Walks a scene's commands once and drives a back end: the state that belongs to no back end lives here.
+//! Walks an HW2 scene's commands once and drives a back end: the state that belongs to no back end lives here.
 
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
-use crate::scene::{Action, Fault, Fill, Scene};
+use crate::scene::Fault;
+use crate::scene::hw2::{Action, Fill, Scene};
 
 /// Draws the scene.
 ///

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::exit::Failure;
 use crate::files;
 use crate::scene::format::{self, Format};
-use crate::scene::{Action, Fault, Place, Scene, hw2};
+use crate::scene::{Fault, Place, Scene, hw2};
 
 /// A scene and where it came from.
 #[derive(Debug)]
@@ -21,10 +21,7 @@ pub struct Loaded {
 impl Loaded {
     /// The texture files it reads.
     pub fn textures(&self) -> impl Iterator<Item = PathBuf> {
-        self.scene.commands.iter().filter_map(|command| match &command.action {
-            Action::Texture(name) => Some(folder(&self.file).join(name)),
-            _ => None,
-        })
+        self.scene.textures().map(|name| folder(&self.file).join(name))
     }
 }
 
@@ -36,7 +33,7 @@ pub fn load(file: &Path, given: Option<Format>) -> Result<Loaded, Failure> {
         None => format::detect(file, &text),
     };
     let parsed = match format {
-        Format::Hw2 => hw2::parse(&text, folder(file)),
+        Format::Hw2 => hw2::parse(&text, folder(file)).map(Scene::Hw2),
         other => Err(Fault::new(place, format!("format {other} is not supported yet"))),
     };
     match parsed {

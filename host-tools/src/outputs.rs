@@ -27,7 +27,7 @@ impl Outputs {
         Self {
             picture: match &args.output {
                 Some(file) => file.clone(),
-                None => args.out_dir.join(&loaded.scene.output),
+                None => args.out_dir.join(loaded.scene.output()),
             },
             reference: args.reference_out.clone(),
             diff: args.diff_out.clone(),

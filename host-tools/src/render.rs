@@ -3,11 +3,11 @@
 use std::time::Instant;
 
 use crate::compare::{Comparison, compare};
-use crate::fixed::Fixed;
+use crate::fixed::hw2::Fixed;
 use crate::interpret::interpret;
 use crate::picture::Picture;
-use crate::reference::Reference;
-use crate::scene::{Fault, Scene};
+use crate::reference::hw2::Reference;
+use crate::scene::{Fault, Scene, hw2};
 
 /// Both pictures and what became of the comparison.
 #[derive(Debug)]
@@ -28,6 +28,12 @@ pub struct Rendered {
 
 /// Draws a scene with both back ends, at the same time where there are processors for it.
 pub fn render(scene: &Scene) -> Result<Rendered, Fault> {
+    match scene {
+        Scene::Hw2(scene) => render_hw2(scene),
+    }
+}
+
+fn render_hw2(scene: &hw2::Scene) -> Result<Rendered, Fault> {
     let (width, height) = (scene.width, scene.height);
     let (fixed, reference) = rayon::join(
         || {

@@ -101,11 +101,12 @@ fn one(args: &Args, loaded: &Loaded, outputs: &Outputs) -> Outcome {
     let against = Against::read(args, loaded)?;
     let rendered = render(&loaded.scene).map_err(|fault| Failure::scene(&loaded.file, &fault))?;
     write(outputs, &rendered)?;
+    let (width, height) = loaded.scene.size();
     Ok(Report {
         scene: loaded.file.display().to_string(),
         format: loaded.format,
-        width: loaded.scene.width,
-        height: loaded.scene.height,
+        width,
+        height,
         against: against.map(|against| [&rendered.fixed, &rendered.reference].map(|p| against.agreement(p))),
         comparison: rendered.comparison,
         seconds_fixed: rendered.seconds_fixed,

@@ -1,6 +1,7 @@
 //! Whatever the text, the parser answers: a scene or a fault within the text, never a panic.
 
-use fixel_host::scene::{Fault, Scene, format, hw2};
+use fixel_host::scene::hw2::{self, Scene};
+use fixel_host::scene::{Fault, format};
 use proptest::prelude::*;
 
 const SCENE: &str = "png 40 30 out.png\nxyz 0 0 0\nxyz 1 0 .5\nxyzw 0 1 0 -1\ncolor 1 0.5 -.25\nnormal 0 0 -1\n\

@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 use fixel::window::Window;
 use fixel_host::backend::BackEnd;
 use fixel_host::compare::{Class, Comparison, compare};
-use fixel_host::fixed::{Fixed, FixedPicture};
+use fixel_host::fixed::FixedPicture;
+use fixel_host::fixed::hw2::Fixed;
 use fixel_host::interpret::interpret;
 use fixel_host::png;
-use fixel_host::reference::{Reference, Rendered};
-use fixel_host::scene::{Action, Fill, Scene, hw2};
+use fixel_host::reference::Rendered;
+use fixel_host::reference::hw2::Reference;
+use fixel_host::scene::hw2::{self, Action, Fill, Scene};
 
 /// The folder of the official HW2 scenes, unless it is not at hand.
 fn official() -> Option<PathBuf> {

@@ -1,6 +1,7 @@
 //! Every row of the table of faults in the description of HW2, by the parser alone: no disk, no picture.
 
-use fixel_host::scene::{Action, Command, Fill, Place, Scene, hw2};
+use fixel_host::scene::Place;
+use fixel_host::scene::hw2::{self, Action, Command, Fill, Scene};
 
 fn parse(text: &str) -> Result<Scene, (usize, usize)> {
     hw2::parse_with(text.as_bytes(), &mut |name| match name {

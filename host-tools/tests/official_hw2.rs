@@ -8,7 +8,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use fixel_host::interpret::interpret;
-use fixel_host::reference::Reference;
+use fixel_host::reference::hw2::Reference;
 use fixel_host::scene::hw2;
 
 /// Every case that has an official picture.

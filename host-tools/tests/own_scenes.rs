@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 
 use fixel::window::Window;
 use fixel_host::compare::{Comparison, compare};
-use fixel_host::fixed::{Fixed, FixedPicture};
+use fixel_host::fixed::FixedPicture;
+use fixel_host::fixed::hw2::Fixed;
 use fixel_host::interpret::interpret;
 use fixel_host::png;
-use fixel_host::reference::Reference;
-use fixel_host::scene::{Scene, hw2};
+use fixel_host::reference::hw2::Reference;
+use fixel_host::scene::hw2::{self, Scene};
 use rayon::prelude::*;
 
 fn folder() -> PathBuf {

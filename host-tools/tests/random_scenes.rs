@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use fixel_host::backend::{BackEnd, Patch, Surface, Vertex};
 use fixel_host::compare::{Class, Comparison, compare};
-use fixel_host::fixed::Fixed;
+use fixel_host::fixed::hw2::Fixed;
 use fixel_host::picture::Picture;
-use fixel_host::reference::Reference;
+use fixel_host::reference::hw2::Reference;
 
 /// A vertex without a normal or a place on a texture.
 const BARE: Vertex = Vertex {

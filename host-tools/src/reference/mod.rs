@@ -1,26 +1,16 @@
-//! The float64 reference: draws a scene in exactly the evaluation order of formats/hw2.md, so that it reproduces the
-//! official pictures byte for byte, and logs what the comparison needs. It shares no arithmetic with the core.
+//! The float64 reference: draws a scene in exactly the evaluation order of its format, so that it reproduces the official
+//! pictures byte for byte, and logs what the comparison needs. It shares no arithmetic with the core.
 
 pub mod attributes;
 pub mod bound;
 pub mod clip;
-mod draw;
+pub mod hw2;
 pub mod log;
 pub mod material;
 pub mod matrix;
-pub mod patch;
 pub mod raster;
-mod state;
-mod vertex;
 
-use std::sync::Arc;
-
-use crate::picture::Picture;
-use bound::Tracked;
-use clip::Plane;
 use log::Polygon;
-use material::Light;
-use matrix::Matrix;
 
 /// One pixel of the reference, unrounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,61 +47,3 @@ impl Rendered {
 pub fn byte(v: f64) -> u8 {
     (255.0 * v).floor() as u8
 }
-
-/// The float64 back end.
-pub struct Reference {
-    width: u32,
-    height: u32,
-    pixels: Vec<Pixel>,
-    polygons: Vec<Polygon>,
-    model_view: Tracked,
-    projection: Tracked,
-    directions: Tracked,
-    planes: Vec<Plane>,
-    cull: bool,
-    decals: bool,
-    flat_normals: bool,
-    texture: Option<Arc<Picture>>,
-    lights: Arc<Vec<Light>>,
-    shininess: f64,
-}
-
-impl Reference {
-    /// An empty picture of `width` x `height` pixels, every pixel (0, 0, 0, 0) at depth 1.
-    pub fn new(width: u32, height: u32) -> Self {
-        let empty = Pixel {
-            color: [0.0; 4],
-            depth: 1.0,
-            primitive: 0,
-        };
-        Self {
-            width,
-            height,
-            pixels: vec![empty; width as usize * height as usize],
-            polygons: Vec::new(),
-            model_view: Tracked::identity(),
-            projection: Tracked::identity(),
-            directions: Tracked::new(Matrix::IDENTITY.linear_part(), 0.0),
-            planes: Vec::new(),
-            cull: false,
-            decals: false,
-            flat_normals: false,
-            texture: None,
-            lights: Arc::default(),
-            shininess: 0.0,
-        }
-    }
-
-    /// The picture and the log.
-    pub fn finish(self) -> Rendered {
-        Rendered {
-            width: self.width,
-            height: self.height,
-            pixels: self.pixels,
-            polygons: self.polygons,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests;

@@ -11,7 +11,8 @@ use super::picture::{FixedPicture, Pixel};
 use super::stated::SNAP;
 use super::{Class, Comparison, compare};
 use crate::backend::{BackEnd, Surface, Vertex};
-use crate::reference::{Reference, Rendered};
+use crate::reference::Rendered;
+use crate::reference::hw2::Reference;
 
 /// Width and height of the pictures: a power of two, so that positions in px come through exactly.
 const SIZE: u32 = 32;

@@ -2,14 +2,14 @@
 //! step 1).
 
 use super::Reference;
-use super::attributes::{Attributes, Bounds};
-use super::bound::size;
-use super::clip::Corner;
-use super::material::{Fill, Material};
-use super::matrix::{Vector, cross, length, unit_or_zero};
 use super::patch::Sample;
 use crate::backend::Vertex;
 use crate::compare::stated::{FIXED_PRODUCT, FLOAT_PRODUCT};
+use crate::reference::attributes::{Attributes, Bounds};
+use crate::reference::bound::size;
+use crate::reference::clip::Corner;
+use crate::reference::material::{Fill, Material};
+use crate::reference::matrix::{Vector, cross, length, unit_or_zero};
 
 /// What is left of a unit vector's knowledge when nothing is known of its direction: the distance of opposite ones.
 const ANY_DIRECTION: f64 = 2.0;

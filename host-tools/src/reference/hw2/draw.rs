@@ -3,14 +3,15 @@
 use std::array;
 use std::sync::Arc;
 
-use super::attributes::{Attributes, Bounds, COUNT};
-use super::clip::{Corner, Side, clip};
-use super::log::Primitive;
-use super::material::{Fill, Material};
-use super::raster::{self, Point, Q, REST, X, Y, Z};
+use super::Reference;
 use super::vertex::{Placed, any_direction, may_vanish};
-use super::{Pixel, Reference};
 use crate::compare::stated::MIXED_HEADROOM;
+use crate::reference::Pixel;
+use crate::reference::attributes::{Attributes, Bounds, COUNT};
+use crate::reference::clip::{Corner, Side, clip};
+use crate::reference::log::Primitive;
+use crate::reference::material::{Fill, Material};
+use crate::reference::raster::{self, Point, Q, REST, X, Y, Z};
 
 /// Numbers of a point with a colour.
 const COLORED: usize = REST + 3;

@@ -7,8 +7,8 @@ use fixel::num::power;
 use fixel::texture::{Floor, Nearest, Rgba8888};
 use fixel::varying::Perspective;
 
-use super::Pixel;
 use super::lamps::BULBS;
+use crate::fixed::Pixel;
 use crate::lower;
 
 /// Values that are still to be taken.

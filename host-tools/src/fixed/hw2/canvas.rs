@@ -9,7 +9,7 @@ use fixel::target::Buffer;
 use fixel::view::{Carried, Vertex, View};
 use fixel::window::Window;
 
-use super::{FixedPicture, Pixel};
+use crate::fixed::{FixedPicture, Pixel};
 
 /// Clip planes that a scene may set.
 const PLANES: usize = 256;

@@ -1,8 +1,9 @@
 //! Points of Bézier patches by de Casteljau in float64 (formats/hw2.md section 8), and the triangles between them.
 
-use super::matrix::{Vector, cross, length};
 use crate::backend::{Patch, Vertex};
 use crate::compare::stated::FIXED_PRODUCT;
+use crate::reference::bound::size;
+use crate::reference::matrix::{Vector, cross, length};
 
 /// A point of a patch, before MV.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,7 +99,7 @@ impl Net {
         for (place, vertex) in points {
             let ([x, y, z, w], [r, g, b]) = (vertex.position, vertex.color);
             net.values[place] = [x, y, z, w, r, g, b];
-            net.largest = net.largest.max(super::bound::size(&vertex.position));
+            net.largest = net.largest.max(size(&vertex.position));
         }
         net
     }

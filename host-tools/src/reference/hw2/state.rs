@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use super::Reference;
-use super::bound::{Tracked, size};
-use super::clip::Plane;
-use super::material::{Fill, Light, Material, Source};
-use super::matrix::{Matrix, Vector, length};
 use super::patch::Grid;
 use super::vertex::{Given, divided_within, unit_within};
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
 use crate::compare::stated::FIXED_PRODUCT;
 use crate::picture::Picture;
+use crate::reference::bound::{Tracked, size};
+use crate::reference::clip::Plane;
+use crate::reference::material::{Fill, Light, Material, Source};
+use crate::reference::matrix::{Matrix, Vector, length};
 
 impl Reference {
     fn add(&mut self, step: &Tracked) {

@@ -1,10 +1,11 @@
 //! The rules of formats/hw2.md section 5 on hand cases.
 
-use super::material::Source;
-use super::matrix::Vector;
 use super::vertex::Given;
 use super::*;
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
+use crate::reference::byte;
+use crate::reference::material::Source;
+use crate::reference::matrix::Vector;
 
 const WHITE: Surface = Surface::Flat([1.0; 3]);
 

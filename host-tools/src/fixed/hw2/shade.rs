@@ -5,13 +5,13 @@ use fixel::light::{Finish, Lit, Matte};
 use fixel::num::Word;
 use fixel::texture::{Rgba8888, Texture};
 
-use super::Pixel;
 use super::canvas::Canvas;
 use super::corner::{self, Corner};
 use super::lamps::{AtScale, BULBS, Lamps};
 use super::material::{
     Decal, Gouraud, Interpolated, Plain, Polished, Same, Sampler, Surface, Textured, UnderLight, Unlit, Vector, pixel,
 };
+use crate::fixed::Pixel;
 
 /// A triangle's surface.
 #[derive(Clone, Copy)]

@@ -11,13 +11,14 @@ use fixel::view::{Cull, View};
 use fixel::viewport::Viewport;
 use fixel::window::Window;
 
+use super::Renderer;
 use super::canvas::Canvas;
 use super::corner::{self, Corner};
 use super::lamps::{Lamps, Place};
 use super::patch::Lowered;
 use super::shade::{self, Look, Paint};
-use super::{FixedPicture, Renderer};
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
+use crate::fixed::FixedPicture;
 use crate::lower;
 use crate::picture::Picture;
 

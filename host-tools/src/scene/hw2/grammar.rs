@@ -9,10 +9,11 @@ use std::sync::Arc;
 
 use crate::files;
 
-use super::arguments::{Arguments, quoted};
-use super::lex::{self, Line};
 use super::view::{self, WRow};
-use super::{Action, Command, Fault, Fill, LONGEST_SIDE, MOST_PIXELS, Place, Scene};
+use super::{Action, Command, Fill, Scene};
+use crate::scene::arguments::{Arguments, quoted};
+use crate::scene::lex::{self, Line};
+use crate::scene::{Fault, LONGEST_SIDE, MOST_PIXELS, Place};
 
 /// Parses a scene; textures are looked for in `folder`, and may have [`MOST_PIXELS`] in all.
 pub fn parse(text: impl AsRef<[u8]>, folder: &Path) -> Result<Scene, Fault> {
