@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use fixel::window::Window;
 use fixel_host::backend::BackEnd;
@@ -13,6 +14,7 @@ use fixel_host::interpret::interpret;
 use fixel_host::png;
 use fixel_host::reference::Rendered;
 use fixel_host::reference::hw2::Reference;
+use fixel_host::reference::material::Material;
 use fixel_host::scene::hw2::{self, Action, Fill, Scene};
 
 /// The folder of the official HW2 scenes, unless it is not at hand.
@@ -55,7 +57,7 @@ fn compared(scene: &Scene) -> Comparison {
     compare(&picture, &referenced(scene))
 }
 
-fn referenced(scene: &Scene) -> Rendered {
+fn referenced(scene: &Scene) -> Rendered<Arc<Material>> {
     let mut reference = Reference::new(scene.width, scene.height);
     interpret(scene, &mut reference).unwrap();
     reference.finish()

@@ -2,8 +2,8 @@
 
 use std::cmp::Reverse;
 
-use super::shape::{Claim, Coverage, Shape};
-use super::surface::{Sight, Verdict};
+use super::look::{Look, Painted, Sight, Verdict};
+use super::shape::{Claim, Coverage};
 use super::{Class, picture};
 use crate::reference;
 
@@ -20,14 +20,14 @@ pub struct Case<'a> {
 impl Case<'_> {
     /// The class if both pictures have the same winner, whose shapes these are: *colour*, *texel*, *pole*, *steep* or unexplained;
     /// and of class *colour* how many levels the pixel is beyond what moving the corners by δ makes of the value.
-    pub fn same_winner(&self, own: &[Shape<'_>]) -> (Class, u8) {
-        let present: Vec<&Shape<'_>> = (own.iter())
-            .filter(|shape| shape.claim(self.sample).is_some())
+    pub fn same_winner<M: Look>(&self, own: &[Painted<'_, M>]) -> (Class, u8) {
+        let present: Vec<&Painted<'_, M>> = (own.iter())
+            .filter(|painted| painted.shape.claim(self.sample).is_some())
             .collect();
         let [r, g, b, _] = self.reference.color;
         // With one shape the reference's value is its; of several it is not known which won.
         let known = (present.len() == 1).then_some([r, g, b]);
-        let best = present.iter().map(|shape| self.verdict(shape, known)).max();
+        let best = present.iter().map(|painted| self.verdict(painted, known)).max();
         let class = match best.unwrap_or(Verdict::Differs) {
             Verdict::Colour(Reverse(beyond)) => return (Class::Colour, beyond),
             Verdict::Texel => Class::Texel,
@@ -43,14 +43,14 @@ impl Case<'_> {
     ///
     /// The core's winner is possible if nothing that certainly covers the sample lies certainly in front of it. Which of
     /// two came later does not matter: where depths may be equal, either may be in front.
-    pub fn other_winner<'s, 'p: 's>(&self, near: impl Iterator<Item = &'s Shape<'p>>) -> Class {
-        let claims: Vec<(&Shape<'_>, Claim)> = near
-            .filter_map(|shape| Some((shape, shape.claim(self.sample)?)))
+    pub fn other_winner<'s, 'p: 's, M: Look + 'p>(&self, near: impl Iterator<Item = &'s Painted<'p, M>>) -> Class {
+        let claims: Vec<(&Painted<'_, M>, Claim)> = near
+            .filter_map(|painted| Some((painted, painted.shape.claim(self.sample)?)))
             .collect();
         let certain = |claim: &Claim| claim.coverage == Coverage::Certain;
         let of = |primitive: u32| {
-            let number = move |shape: &Shape<'_>| shape.polygon.primitive == primitive;
-            claims.iter().filter(move |(shape, _)| number(shape))
+            let number = move |painted: &Painted<'_, M>| painted.shape.outline.primitive == primitive;
+            claims.iter().filter(move |(painted, _)| number(painted))
         };
         if self.fixed.primitive == 0 {
             let empty = self.fixed.rgba == [0; 4] && !claims.iter().any(|(_, c)| certain(c));
@@ -60,7 +60,7 @@ impl Case<'_> {
         let hidden =
             |claim: &Claim| (claims.iter()).any(|(_, other)| certain(other) && other.depth.high < claim.depth.low);
         let mut class = Class::Unexplained;
-        for (shape, claim) in of(self.fixed.primitive).filter(|(_, claim)| !hidden(claim)) {
+        for (painted, claim) in of(self.fixed.primitive).filter(|(_, claim)| !hidden(claim)) {
             let explained = if !certain(claim) || self.reference.primitive != 0 && !reference_certain {
                 Class::Edge
             } else if reference_certain {
@@ -68,7 +68,7 @@ impl Case<'_> {
             } else {
                 continue;
             };
-            match self.verdict(shape, None) {
+            match self.verdict(painted, None) {
                 Verdict::Colour(_) | Verdict::Texel | Verdict::Steep => return explained,
                 Verdict::Pole => class = Class::Pole,
                 Verdict::Differs => {}
@@ -77,7 +77,7 @@ impl Case<'_> {
         class
     }
 
-    fn verdict(&self, shape: &Shape<'_>, known: Option<[f64; 3]>) -> Verdict {
+    fn verdict<M: Look>(&self, painted: &Painted<'_, M>, known: Option<[f64; 3]>) -> Verdict {
         let [r, g, b, alpha] = self.fixed.rgba;
         let sight = Sight {
             sample: self.sample,
@@ -85,7 +85,7 @@ impl Case<'_> {
             known,
         };
         if alpha == 255 {
-            shape.verdict(&sight)
+            painted.verdict(&sight)
         } else {
             Verdict::Differs
         }

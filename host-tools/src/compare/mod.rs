@@ -10,8 +10,10 @@ pub mod interval;
 mod judge;
 mod lighting;
 mod linear;
+pub mod look;
 pub mod picture;
 mod piece;
+pub mod screen;
 mod shape;
 pub mod stated;
 mod surface;
@@ -21,8 +23,11 @@ mod tiles;
 use rayon::prelude::*;
 
 use crate::reference::Rendered;
+use interval::Interval;
 use judge::Case;
+use look::{Look, Painted};
 use picture::FixedPicture;
+use screen::Screen;
 use shape::Shape;
 use tiles::Tiles;
 
@@ -92,7 +97,7 @@ pub struct Comparison {
 /// # Panics
 ///
 /// If the pictures differ in size: they are not of one scene then.
-pub fn compare(fixed: &FixedPicture, reference: &Rendered) -> Comparison {
+pub fn compare<M: Look + Sync>(fixed: &FixedPicture, reference: &Rendered<M>) -> Comparison {
     let size = (fixed.width, fixed.height, fixed.pixels.len());
     let other = (reference.width, reference.height, reference.pixels.len());
     assert_eq!(size, other, "pictures of one scene have one size");
@@ -109,7 +114,7 @@ pub fn compare(fixed: &FixedPicture, reference: &Rendered) -> Comparison {
 }
 
 /// The figures that need no explanation.
-fn measured(fixed: &FixedPicture, reference: &Rendered, bytes: &[[u8; 4]]) -> Comparison {
+fn measured<M>(fixed: &FixedPicture, reference: &Rendered<M>, bytes: &[[u8; 4]]) -> Comparison {
     let mut max_channel_error = 0;
     let mut squares = 0;
     for (pixel, bytes) in fixed.pixels.iter().zip(bytes) {
@@ -136,18 +141,26 @@ fn measured(fixed: &FixedPicture, reference: &Rendered, bytes: &[[u8; 4]]) -> Co
 }
 
 /// The classes of the differing pixels, and by how many levels those of class *colour* are beyond their gradient.
-fn classify(fixed: &FixedPicture, reference: &Rendered, differing: &[usize]) -> Vec<(Class, u8)> {
+fn classify<M: Look + Sync>(fixed: &FixedPicture, reference: &Rendered<M>, differing: &[usize]) -> Vec<(Class, u8)> {
     if differing.is_empty() {
         return Vec::new();
     }
     let (width, height) = (fixed.width, fixed.height);
-    let size = [f64::from(width), f64::from(height)];
-    let shapes: Vec<Shape<'_>> = (reference.polygons.iter())
-        .map(|polygon| Shape::new(polygon, size))
+    let [low, high] = reference.depth_range;
+    let screen = Screen {
+        size: [f64::from(width), f64::from(height)],
+        depths: Interval { low, high },
+    };
+    let shapes: Vec<Painted<'_, M>> = (reference.polygons.iter())
+        .map(|polygon| Painted {
+            shape: Shape::new(&polygon.outline, &screen),
+            material: &polygon.material,
+        })
         .collect();
     let other_winner = |&i: &usize| fixed.pixels[i].primitive != reference.pixels[i].primitive;
     let contested: Vec<usize> = differing.iter().copied().filter(other_winner).collect();
-    let tiles = Tiles::new(&shapes, width, height, &contested);
+    let bounds = shapes.iter().map(|painted| painted.shape.bounds(width, height));
+    let tiles = Tiles::new(bounds, width, height, &contested);
     let class = |&i: &usize| {
         let (x, y) = (i % width as usize, i / width as usize);
         let case = Case {
@@ -167,9 +180,9 @@ fn classify(fixed: &FixedPicture, reference: &Rendered, differing: &[usize]) -> 
 }
 
 /// The shapes of one primitive; they stand together, since primitives are numbered in drawing order.
-fn of_primitive<'a, 'b>(shapes: &'a [Shape<'b>], primitive: u32) -> &'a [Shape<'b>] {
-    let from = shapes.partition_point(|shape| shape.polygon.primitive < primitive);
-    let end = shapes.partition_point(|shape| shape.polygon.primitive <= primitive);
+fn of_primitive<'a, 'b, M>(shapes: &'a [Painted<'b, M>], primitive: u32) -> &'a [Painted<'b, M>] {
+    let from = shapes.partition_point(|painted| painted.shape.outline.primitive < primitive);
+    let end = shapes.partition_point(|painted| painted.shape.outline.primitive <= primitive);
     &shapes[from..end]
 }
 

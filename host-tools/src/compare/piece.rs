@@ -13,9 +13,9 @@ use std::array::from_fn;
 
 use super::interval::Interval;
 use super::linear::{Frame, Linear, Range};
-use super::stated::{DEPTH_PER_COLUMN, GUARD, INVERSE, MIXED_HEADROOM, PERSPECTIVE, WIDE_GUARD};
-use crate::reference::log::{Corner, Polygon};
-use crate::reference::material::{Fill, Material};
+use super::screen::{Screen, guard};
+use super::stated::{DEPTH_PER_COLUMN, INVERSE, PERSPECTIVE};
+use crate::reference::log::{Corner, Outline};
 
 /// The functions through a triangle's corners.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +32,7 @@ struct Fit {
 pub struct Piece<'a> {
     /// Its corners.
     pub corners: [Corner; 3],
-    polygon: &'a Polygon,
+    outline: &'a Outline,
     /// None if the triangle has no area that float64 can tell.
     fit: Option<Fit>,
     /// The largest |1/w| of the triangle inside the guard band.
@@ -47,18 +47,10 @@ pub struct Piece<'a> {
     depth_steps: f64,
 }
 
-/// Half the side of the guard band of a picture of `size` px.
-pub fn guard(size: [f64; 2]) -> f64 {
-    if size[0].max(size[1]) <= GUARD {
-        GUARD
-    } else {
-        WIDE_GUARD
-    }
-}
-
 impl<'a> Piece<'a> {
-    /// A triangle of a polygon's fan in a picture of `size` px; `count` is the most corners that clipping leaves the polygon.
-    pub fn new(corners: [Corner; 3], polygon: &'a Polygon, count: usize, size: [f64; 2]) -> Self {
+    /// A triangle of an outline's fan; `count` is the most corners that clipping leaves of what it shares its values with.
+    pub fn new(corners: [Corner; 3], outline: &'a Outline, count: usize, screen: &Screen) -> Self {
+        let size = screen.size;
         let fit = Fit::through(&corners, size);
         let guard = guard(size);
         let mut greatest_q = Interval::of(corners.map(|c| c.w.recip().abs())).high;
@@ -67,24 +59,19 @@ impl<'a> Piece<'a> {
             greatest_q = greatest_q.min(Interval::of(band.map(|p| fit.q.at(p).abs())).high);
         }
         let extents = [0, 1].map(|i| {
-            let range = Interval::of(polygon.outer.iter().map(|c| c.position[i].clamp(-guard, guard)));
+            let range = Interval::of(outline.outer.iter().map(|c| c.position[i].clamp(-guard, guard)));
             range.high - range.low + 1.0
         });
         Self {
             corners,
-            polygon,
+            outline,
             fit,
             greatest_q,
             extents,
             spread: (2 * count - 5) as f64,
             walk: (size[0] + size[1] + 8.0) * f64::EPSILON,
-            depth_steps: DEPTH_PER_COLUMN * (size[0] + 8.0) / 65535.0,
+            depth_steps: DEPTH_PER_COLUMN * (size[0] + 8.0) * screen.depth_step(),
         }
-    }
-
-    /// What makes a colour of its values.
-    pub fn material(&self) -> &'a Material {
-        &self.polygon.material
     }
 
     /// δ at a sample in px: the displacement is the corners' mean at the unmoved point, which is itself δ away.
@@ -135,7 +122,7 @@ impl<'a> Piece<'a> {
         lowering: f64,
     ) -> Option<Range<N>> {
         let least = self.least_q(p);
-        if self.polygon.mixed && least <= INVERSE * self.greatest_q {
+        if self.outline.mixed && least <= INVERSE * self.greatest_q {
             return None;
         }
         let numerators = self.numerators(of);
@@ -146,7 +133,7 @@ impl<'a> Piece<'a> {
         let moved = from_fn(|i| {
             let free = self.along(p, numerators.map(|n| n[i]), value[i], least);
             let range = Interval::of(self.corners.iter().map(|c| of(c)[i]));
-            if self.polygon.mixed { free } else { free.clamped(range) }
+            if self.outline.mixed { free } else { free.clamped(range) }
         });
         Some(Range {
             value,
@@ -157,7 +144,7 @@ impl<'a> Piece<'a> {
 
     /// The largest of some values at the polygon's corners.
     pub fn greatest<const N: usize>(&self, of: impl Fn(&Corner) -> [f64; N]) -> f64 {
-        let all = self.polygon.outer.iter().flat_map(of);
+        let all = self.outline.outer.iter().flat_map(of);
         all.map(f64::abs).fold(0.0, f64::max)
     }
 
@@ -172,9 +159,7 @@ impl<'a> Piece<'a> {
         let weights = Interval::of(self.corners.map(|c| c.weight_error)).high;
         let noise = self.fit.map_or(0.0, |fit| fit.frame.noise);
         // Values with headroom are rounded at the corners to 2⁻¹⁹ of the largest; colours that are not lit have none.
-        let material = &self.polygon.material;
-        let headroom = self.polygon.mixed && (material.is_lit() || matches!(material.fill, Fill::Textured(_)));
-        let units = if headroom { MIXED_HEADROOM / 8.0 } else { 1.0 };
+        let units = (self.outline.headroom / 8.0).max(1.0);
         let relative = PERSPECTIVE * units + 2.0 * weights + self.walk + noise;
         let swing = |n: &[Linear]| Interval::of(n.iter().map(|n| n.swing(self.extents))).high.max(0.0);
         let q = self.fit.map_or(0.0, |fit| fit.q.swing(self.extents));
@@ -201,7 +186,7 @@ impl<'a> Piece<'a> {
         let here = self.fit.map_or(0.0, |fit| {
             fit.q.at(p).abs() - fit.q.slope() * self.spread * self.reach(p)
         });
-        if self.polygon.mixed { here } else { here.max(corners) }
+        if self.outline.mixed { here } else { here.max(corners) }
     }
 }
 

@@ -1,10 +1,10 @@
-//! A polygon of the log, ready to be asked about samples: does the core cover it, and at what depth?
+//! An outline of the log, ready to be asked about samples: does the core cover it, and at what depth?
 
 use super::interval::Interval;
-use super::piece::{Piece, guard};
+use super::piece::Piece;
+use super::screen::{Screen, guard};
 use super::stated::DEPTH_ROUNDING;
-use super::surface::{Sight, Verdict, varies, verdict};
-use crate::reference::log::{Corner, Polygon, doubled_area};
+use crate::reference::log::{Corner, Outline, doubled_area};
 
 /// Whether the core covers a sample with a polygon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,11 +24,12 @@ pub struct Claim {
     pub depth: Interval,
 }
 
-/// A polygon of the log.
+/// An outline of the log.
 pub struct Shape<'a> {
     /// The log's entry.
-    pub polygon: &'a Polygon,
+    pub outline: &'a Outline,
     pieces: Vec<Piece<'a>>,
+    screen: Screen,
     /// The picture's centre, in px.
     centre: [f64; 2],
     /// Whether moving the corners by their reach may turn the polygon over, so that `cull` may decide otherwise.
@@ -36,18 +37,20 @@ pub struct Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    /// The polygon in a picture of `size` px.
-    pub fn new(polygon: &'a Polygon, size: [f64; 2]) -> Self {
-        let corners = &polygon.outer;
-        let count = corners.len() + clipping_sides(corners, guard(size));
+    /// The outline on a screen.
+    pub fn new(outline: &'a Outline, screen: &Screen) -> Self {
+        let corners = &outline.outer;
+        let together = if outline.fanned { 3 } else { corners.len() };
+        let count = together + clipping_sides(corners, screen);
         let piece = |i: usize| {
             let fan = [corners[0], corners[i - 1], corners[i]];
-            Piece::new(fan, polygon, count, size)
+            Piece::new(fan, outline, count, screen)
         };
         Self {
-            polygon,
+            outline,
             pieces: (2..corners.len()).map(piece).collect(),
-            centre: size.map(|s| s / 2.0),
+            screen: *screen,
+            centre: screen.size.map(|s| s / 2.0),
             flimsy: doubled_area(corners).abs() <= area_error(corners),
         }
     }
@@ -55,11 +58,11 @@ impl<'a> Shape<'a> {
     /// First and last column and row, both included, that the core may cover; none if all are off the picture.
     pub fn bounds(&self, width: u32, height: u32) -> Option<[[usize; 2]; 2]> {
         let last = [width, height].map(|s| f64::from(s) - 1.0);
-        if self.polygon.wild {
+        if self.outline.wild {
             return Some(last.map(|last| [0, last as usize]));
         }
         let span = |axis: usize| {
-            let ends = self.polygon.outer.iter().map(|c| (c.position[axis], c.reach));
+            let ends = self.outline.outer.iter().map(|c| (c.position[axis], c.reach));
             let low = ends.clone().map(|(x, r)| x - r).fold(f64::INFINITY, f64::min);
             let high = ends.map(|(x, r)| x + r).fold(f64::NEG_INFINITY, f64::max);
             let (first, end) = (low.ceil().max(0.0), high.floor().min(last[axis]));
@@ -70,13 +73,13 @@ impl<'a> Shape<'a> {
 
     /// What the polygon may do at a sample; none if it certainly does not cover it.
     pub fn claim(&self, p: [f64; 2]) -> Option<Claim> {
-        if self.polygon.wild {
+        if self.outline.wild {
             let (coverage, depth) = (Coverage::Perhaps, Interval::ALL);
             return Some(Claim { coverage, depth });
         }
         let on_edges = self.coverage(p)?;
         let depth = (self.near(p).map(|piece| piece.depth(p))).reduce(Interval::join)?;
-        let range = Interval { low: 0.0, high: 1.0 };
+        let range = self.screen.depths;
         if depth.high < range.low || depth.low > range.high {
             return None;
         }
@@ -87,29 +90,20 @@ impl<'a> Shape<'a> {
             Coverage::Perhaps
         };
         let depth = (self.near(p).map(|piece| piece.interpolated_depth(p))).reduce(Interval::join)?;
-        let depth = depth.widened(DEPTH_ROUNDING / 65535.0);
+        let depth = depth.widened(DEPTH_ROUNDING * self.screen.depth_step());
         Some(Claim { coverage, depth })
     }
 
-    /// Whether the core may have given a sample its colour.
-    pub fn verdict(&self, sight: &Sight) -> Verdict {
-        if self.polygon.wild && varies(&self.polygon.material) {
-            return Verdict::Pole;
-        }
-        let verdicts = self.near(sight.sample).map(|piece| verdict(piece, sight));
-        verdicts.max().unwrap_or(Verdict::Differs)
-    }
-
     fn coverage(&self, p: [f64; 2]) -> Option<Coverage> {
-        let outer = Ring::around(&self.polygon.outer, self.centre, p);
+        let outer = Ring::around(&self.outline.outer, self.centre, p);
         let near_an_edge = !outer.clear;
-        if self.polygon.culled {
+        if self.outline.culled {
             return (self.flimsy && near_an_edge).then_some(Coverage::Perhaps);
         }
         if !outer.inside && !near_an_edge {
             return None;
         }
-        let inner = match &self.polygon.inner {
+        let inner = match &self.outline.inner {
             Some(corners) => Ring::around(corners, self.centre, p),
             None => outer,
         };
@@ -118,7 +112,7 @@ impl<'a> Shape<'a> {
     }
 
     /// The pieces that a sample may belong to.
-    fn near(&self, p: [f64; 2]) -> impl Iterator<Item = &Piece<'a>> {
+    pub fn near(&self, p: [f64; 2]) -> impl Iterator<Item = &Piece<'a>> {
         let alone = self.pieces.len() == 1;
         self.pieces.iter().filter(move |piece| {
             let ring = || Ring::around(&piece.corners, self.centre, p);
@@ -205,10 +199,11 @@ fn seen(a: &Corner, b: &Corner, p: [f64; 2]) -> (f64, f64) {
 
 /// How many of the depth range's borders and the guard band's sides cut the polygon: each can add a corner. A corner that
 /// the core sees beyond a border by its error only adds one right beside it, which moves nothing.
-fn clipping_sides(corners: &[Corner], guard: f64) -> usize {
+fn clipping_sides(corners: &[Corner], screen: &Screen) -> usize {
+    let guard = guard(screen.size);
     let beyond = |outside: &dyn Fn(&Corner) -> bool| usize::from(corners.iter().any(outside));
-    beyond(&|c| c.z < 0.0)
-        + beyond(&|c| c.z > 1.0)
+    beyond(&|c| c.z < screen.depths.low)
+        + beyond(&|c| c.z > screen.depths.high)
         + beyond(&|c| c.position[0] < -guard)
         + beyond(&|c| c.position[0] > guard)
         + beyond(&|c| c.position[1] < -guard)

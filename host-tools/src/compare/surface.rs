@@ -1,11 +1,13 @@
-//! What the core may show at one sample of a piece, whatever its material: interpolated colours, texels, decals, lights.
+//! What the core may show at one sample of an HW2 surface: interpolated colours, texels, decals, lights.
 
 use std::cmp::Reverse;
+use std::sync::Arc;
 
 use super::direction::Direction;
 use super::interval::Interval;
 use super::lighting::{Errors, Place, Sum, brightest, sums};
 use super::linear::Range;
+use super::look::{Look, Sight, Verdict};
 use super::piece::Piece;
 use super::stated::{COLOR_LEVELS, LIT, LIT_LEVELS, LIT_SURFACE, UNIT_VECTOR, UNITS};
 use super::texels::{Texels, blended};
@@ -14,34 +16,8 @@ use crate::reference::byte;
 use crate::reference::log::Corner;
 use crate::reference::material::{Fill, Material, Source};
 
-/// Whether a colour can be a surface's; the better, the greater.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
-    /// It cannot.
-    Differs,
-    /// Only by a steep power's error, or if a light is switched.
-    Steep,
-    /// 1/w is within its bound of 0: it may be anything.
-    Pole,
-    /// It is that of another texel within reach.
-    Texel,
-    /// It is. The number is how many levels it lies beyond what moving the corners by δ makes of the value.
-    Colour(Reverse<u8>),
-}
-
-/// A sample, and what to look for.
-#[derive(Debug, Clone, Copy)]
-pub struct Sight {
-    /// The sample in px.
-    pub sample: [f64; 2],
-    /// The core's red, green and blue.
-    pub fixed: [u8; 3],
-    /// The reference's own unrounded colour, if it is the same surface's.
-    pub known: Option<[f64; 3]>,
-}
-
 /// A surface at a sample.
-struct Look<'a> {
+struct Seen<'a> {
     sight: &'a Sight,
     /// The interpolated colour, or the one of a flat surface.
     color: Range<3>,
@@ -54,40 +30,49 @@ struct Look<'a> {
 }
 
 /// Whether anything of the material changes from fragment to fragment.
-pub fn varies(material: &Material) -> bool {
+fn varies(material: &Material) -> bool {
     !matches!(material.fill, Fill::Flat(_)) || material.is_lit() && (turns(material) || has_place(material))
 }
 
+impl Look for Arc<Material> {
+    fn varies(&self) -> bool {
+        varies(self)
+    }
+
+    fn verdict(&self, piece: &Piece<'_>, sight: &Sight) -> Verdict {
+        verdict(self, piece, sight)
+    }
+}
+
 /// Judges a colour.
-pub fn verdict(piece: &Piece<'_>, sight: &Sight) -> Verdict {
-    look(piece, sight).unwrap_or(Verdict::Pole)
+fn verdict(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Verdict {
+    look(material, piece, sight).unwrap_or(Verdict::Pole)
 }
 
 /// None is a pole.
-fn look(piece: &Piece<'_>, sight: &Sight) -> Option<Verdict> {
-    let material = piece.material();
-    let rounding = rounding(piece);
-    let look = Look {
+fn look(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Option<Verdict> {
+    let rounding = rounding(material, piece);
+    let seen = Seen {
         sight,
-        color: color(piece, sight, rounding)?,
+        color: color(material, piece, sight, rounding)?,
         rounding,
         unit: LIT / 255.0 * brightest(&material.lights) * piece.greatest(|c| c.color).max(1.0),
         light: if material.is_lit() {
-            Some(light(piece, sight)?)
+            Some(light(material, piece, sight)?)
         } else {
             None
         },
     };
     let Some(texture) = material.texture() else {
-        return Some(look.judged(&look.color, true));
+        return Some(seen.judged(&seen.color, true));
     };
     let coordinates = piece.values(sight.sample, |c| c.at.texcoord, None, 0.0)?;
     let texels = Texels::new(texture, &coordinates, lowering(piece, |e| e.texcoord));
     let candidate = |(texel, own): ([u8; 4], bool)| {
         let [r, g, b, alpha] = texel;
-        let mut surface = blended([r, g, b, if material.decals { alpha } else { 255 }], &look.color);
-        surface.full = surface.full.map(|f| f.widened(look.rounding));
-        look.judged(&surface, own)
+        let mut surface = blended([r, g, b, if material.decals { alpha } else { 255 }], &seen.color);
+        surface.full = surface.full.map(|f| f.widened(seen.rounding));
+        seen.judged(&surface, own)
     };
     texels.all().map(candidate).max()
 }
@@ -111,18 +96,13 @@ fn lowering(piece: &Piece<'_>, of: fn(&Bounds) -> f64) -> f64 {
 }
 
 /// What the core rounds colours to, in proportion to the largest, or to full if that is less.
-fn rounding(piece: &Piece<'_>) -> f64 {
-    let levels = if piece.material().is_lit() {
-        LIT_SURFACE
-    } else {
-        COLOR_LEVELS
-    };
+fn rounding(material: &Material, piece: &Piece<'_>) -> f64 {
+    let levels = if material.is_lit() { LIT_SURFACE } else { COLOR_LEVELS };
     levels / 255.0 * piece.greatest(|c| c.color).max(1.0)
 }
 
 /// The surface's colour before textures and lights.
-fn color(piece: &Piece<'_>, sight: &Sight, rounding: f64) -> Option<Range<3>> {
-    let material = piece.material();
+fn color(material: &Material, piece: &Piece<'_>, sight: &Sight, rounding: f64) -> Option<Range<3>> {
     let of = |c: &Corner| c.color;
     let lowering = rounding + lowering(piece, |e| e.color);
     match material.fill {
@@ -134,8 +114,7 @@ fn color(piece: &Piece<'_>, sight: &Sight, rounding: f64) -> Option<Range<3>> {
 }
 
 /// The light without the core's errors, switched as it is, and all that it may be with them.
-fn light(piece: &Piece<'_>, sight: &Sight) -> Option<(Sum, Vec<Sum>)> {
-    let material = piece.material();
+fn light(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Option<(Sum, Vec<Sum>)> {
     let normal = match material.flat_normal {
         Some(normal) => Range::constant(normal, material.flat_normal_error + UNIT_VECTOR),
         None => piece.values(sight.sample, |c| c.at.normal, None, lowering(piece, |e| e.normal))?,
@@ -165,7 +144,7 @@ fn light(piece: &Piece<'_>, sight: &Sight) -> Option<(Sum, Vec<Sum>)> {
     Some((*exact.first()?, core))
 }
 
-impl Look<'_> {
+impl Seen<'_> {
     /// Judges the colour for one surface colour; `own` is whether that is the reference's texel.
     fn judged(&self, surface: &Range<3>, own: bool) -> Verdict {
         let Some((exact, core)) = &self.light else {

@@ -1,6 +1,7 @@
-//! Which polygons may touch which tile of the picture, so that judging a pixel costs what is near it.
+//! Which shapes may touch which tile of the picture, so that judging a pixel costs what is near it.
 
-use super::shape::Shape;
+/// First and last column, first and last row, both included.
+pub type Bounds = [[usize; 2]; 2];
 
 /// Side of a tile in px.
 const SIDE: usize = 16;
@@ -12,8 +13,9 @@ pub struct Tiles {
 }
 
 impl Tiles {
-    /// The tiles of a picture, with lists for those that hold one of the pixels (counted row by row).
-    pub fn new(shapes: &[Shape<'_>], width: u32, height: u32, pixels: &[usize]) -> Self {
+    /// The tiles of a picture, with lists for those that hold one of the pixels (counted row by row). The bounds are those of the
+    /// shapes in drawing order, none for one that is off the picture.
+    pub fn new(bounds: impl Iterator<Item = Option<Bounds>>, width: u32, height: u32, pixels: &[usize]) -> Self {
         let columns = (width as usize).div_ceil(SIDE);
         let rows = (height as usize).div_ceil(SIDE);
         let lists = vec![None; columns * rows];
@@ -22,8 +24,8 @@ impl Tiles {
             let tile = tiles.tile(pixel % width as usize, pixel / width as usize);
             tiles.lists[tile].get_or_insert_with(Vec::new);
         }
-        for (index, shape) in shapes.iter().enumerate() {
-            let Some([x, y]) = shape.bounds(width, height) else {
+        for (index, bounds) in bounds.enumerate() {
+            let Some([x, y]) = bounds else {
                 continue;
             };
             for row in y[0] / SIDE..=y[1] / SIDE {

@@ -5,12 +5,9 @@
 //! raised by their bound, which certainly holds whatever the core draws, and one with the planes lowered, which the core
 //! certainly draws. The same two handle a plane almost parallel to an edge, or through the whole triangle.
 
-use std::sync::Arc;
-
 use super::attributes::{Attributes, Bounds};
 use super::bound::Tracked;
 use super::clip::{Corner as EyeCorner, Plane, Side, clip};
-use super::material::{Fill, Material};
 use super::matrix::Vector;
 use crate::compare::stated::SNAP;
 
@@ -43,13 +40,9 @@ pub struct Corner {
 /// A convex polygon of a primitive. One primitive has several where w changes sign inside its clipped polygon: there each
 /// triangle of the fan stands for itself, since the plain division gives no common convex outline.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Polygon {
+pub struct Outline {
     /// The primitive's number, from 1.
     pub primitive: u32,
-    /// Whether the colours are interpolated; else the corners have all the same.
-    pub gouraud: bool,
-    /// What makes a colour of the interpolated attributes.
-    pub material: Arc<Material>,
     /// Everything that the core may draw lies in here, up to the corners' `reach`.
     pub outer: Vec<Corner>,
     /// What the core certainly draws, up to the corners' `reach`; none means the same as `outer`.
@@ -61,14 +54,27 @@ pub struct Polygon {
     /// Whether some corner's w may be 0, or clipping may change the number of corners of a mixed polygon: then nothing
     /// is known of where it lies on the screen.
     pub wild: bool,
+    /// Whether every triangle of the fan has values of its own, instead of all those of one plane.
+    pub fanned: bool,
+    /// In how many times larger units than usual the core carries the values.
+    pub headroom: f64,
+}
+
+/// An outline and what it is painted with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polygon<M> {
+    /// Where it is.
+    pub outline: Outline,
+    /// What makes a colour of the values at a sample.
+    pub material: M,
 }
 
 /// A primitive as the reference has it before the screen.
 pub struct Primitive<'a> {
     /// Its number, from 1.
     pub number: u32,
-    /// Its material.
-    pub material: &'a Arc<Material>,
+    /// In how many times larger units than usual the core carries its values where w has both signs.
+    pub mixed_headroom: f64,
     /// Its corners in eye space.
     pub triangle: &'a [EyeCorner; 3],
     /// The clip planes of the moment.
@@ -82,10 +88,10 @@ pub struct Primitive<'a> {
 }
 
 impl Primitive<'_> {
-    /// The primitive's polygons, usually one; none if no side may see anything of it.
-    pub fn polygons(&self) -> Vec<Polygon> {
+    /// The primitive's outlines, usually one; none if no side may see anything of it.
+    pub fn outlines(&self) -> Vec<Outline> {
         if self.planes.is_empty() {
-            return vec![self.polygon(self.screen(self.triangle), None)];
+            return vec![self.outline(self.screen(self.triangle), None)];
         }
         let [exact, outer, inner] = [Side::Exact, Side::Generous, Side::Strict]
             .map(|side| self.screen(&clip(self.triangle, self.planes, side)));
@@ -93,21 +99,21 @@ impl Primitive<'_> {
             return Vec::new();
         }
         if !mixed(&outer) {
-            return vec![self.polygon(outer, Some(inner))];
+            return vec![self.outline(outer, Some(inner))];
         }
         if exact.len() != outer.len() || exact.len() != inner.len() {
-            let wild = self.polygon(outer, Some(Vec::new()));
-            return vec![Polygon { wild: true, ..wild }];
+            let wild = self.outline(outer, Some(Vec::new()));
+            return vec![Outline { wild: true, ..wild }];
         }
         let moved: Vec<Corner> = (exact.iter().zip(&outer).zip(&inner))
             .map(|((corner, a), b)| widened(corner, a, b))
             .collect();
         (1..moved.len() - 1)
-            .map(|i| self.polygon(vec![moved[0], moved[i], moved[i + 1]], None))
+            .map(|i| self.outline(vec![moved[0], moved[i], moved[i + 1]], None))
             .collect()
     }
 
-    fn polygon(&self, mut outer: Vec<Corner>, mut inner: Option<Vec<Corner>>) -> Polygon {
+    fn outline(&self, mut outer: Vec<Corner>, mut inner: Option<Vec<Corner>>) -> Outline {
         let known = |c: &Corner| c.reach.is_finite() && c.position.iter().all(|x| x.is_finite());
         for corners in std::iter::once(&mut outer).chain(&mut inner) {
             let walk = walk_error(corners, self.size[1]);
@@ -116,12 +122,13 @@ impl Primitive<'_> {
                 corner.shift += walk;
             }
         }
-        Polygon {
+        let mixed = mixed(&outer);
+        Outline {
             primitive: self.number,
-            gouraud: self.material.fill == Fill::Gouraud,
-            material: Arc::clone(self.material),
             culled: self.cull && doubled_area(&outer) >= 0.0,
-            mixed: mixed(&outer),
+            mixed,
+            fanned: false,
+            headroom: if mixed { self.mixed_headroom } else { 1.0 },
             wild: !outer.iter().chain(inner.iter().flatten()).all(known),
             outer,
             inner,
@@ -223,31 +230,23 @@ mod tests {
         }
     }
 
-    fn polygons(triangle: &[EyeCorner; 3], planes: &[Plane]) -> Vec<Polygon> {
-        let material = Material {
-            fill: Fill::Flat([1.0; 3]),
-            decals: false,
-            lights: Arc::default(),
-            shininess: 0.0,
-            flat_normal: None,
-            flat_normal_error: 0.0,
-        };
+    fn outlines(triangle: &[EyeCorner; 3], planes: &[Plane]) -> Vec<Outline> {
         let primitive = Primitive {
             number: 7,
-            material: &Arc::new(material),
+            mixed_headroom: 1.0,
             triangle,
             planes,
             projection: &Tracked::identity(),
             size: [120.0, 80.0],
             cull: false,
         };
-        primitive.polygons()
+        primitive.outlines()
     }
 
     #[test]
     fn a_plain_triangle_reaches_little_more_than_the_snapping() {
         let corners = [[-1.0, -1.0, 0.5, 1.0], [1.0, -1.0, 0.5, 1.0], [0.0, 1.0, 0.5, 1.0]];
-        let all = polygons(&corners.map(|v| eye(v, 1e-15)), &[]);
+        let all = outlines(&corners.map(|v| eye(v, 1e-15)), &[]);
         assert_eq!(all[0].outer[0].position, [0.0, 0.0]);
         assert_eq!(all[0].outer[2].position, [60.0, 80.0]);
         for corner in &all[0].outer {
@@ -259,7 +258,7 @@ mod tests {
     fn the_reach_grows_towards_w_0_and_is_infinite_there() {
         let near = |w: f64| {
             let corners = [[0.5, 0.0, 0.0, w], [1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]];
-            polygons(&corners.map(|v| eye(v, 1e-9)), &[]).remove(0)
+            outlines(&corners.map(|v| eye(v, 1e-9)), &[]).remove(0)
         };
         // E / w times half the diagonal and the distance from the centre, 0.5 / w times half the width.
         let expected = 1e-9 / 1e-3 * (60f64.hypot(40.0) + 60.0 * 500.0);
@@ -272,7 +271,7 @@ mod tests {
     fn a_plane_through_the_triangle_may_take_all_of_it() {
         let corners = [[-1.0, -1.0, 0.5, 1.0], [1.0, -1.0, 0.5, 1.0], [0.0, 1.0, 0.5, 1.0]];
         let plane = Plane::new([0.0, 0.0, 1.0, -0.5], &Tracked::identity());
-        let all = polygons(&corners.map(|v| eye(v, 1e-15)), &[plane]);
+        let all = outlines(&corners.map(|v| eye(v, 1e-15)), &[plane]);
         assert_eq!(all[0].outer.len(), 3);
         assert_eq!(all[0].inner.as_deref(), Some(&[][..]));
     }
@@ -282,7 +281,7 @@ mod tests {
         // The distances from the plane are 1e-13 x: off by 1e-15 they cut up to a hundredth further.
         let corners = [[-1.0, 0.0, 0.5, 1.0], [1.0, 0.0, 0.5, 1.0], [0.0, 0.5, 0.5, 1.0]];
         let plane = Plane::new([1e-13, 1.0, 0.0, 0.0], &Tracked::identity());
-        let all = polygons(&corners.map(|v| eye(v, 1e-15)), &[plane]);
+        let all = outlines(&corners.map(|v| eye(v, 1e-15)), &[plane]);
         let left = |corners: &[Corner]| {
             let on_edge = corners.iter().filter(|c| c.position[1] == 40.0);
             on_edge.map(|c| c.position[0]).fold(f64::INFINITY, f64::min)
@@ -295,7 +294,7 @@ mod tests {
     fn mixed_signs_fall_apart_into_a_fan() {
         let corners = [[0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0], [-1.0, 1.0, 0.0, -0.5]];
         let plane = Plane::new([-1.0, 0.0, 0.0, 0.25], &Tracked::identity());
-        let all = polygons(&corners.map(|v| eye(v, 1e-15)), &[plane]);
+        let all = outlines(&corners.map(|v| eye(v, 1e-15)), &[plane]);
         assert!(all.len() == 2 && all.iter().all(|p| p.primitive == 7 && p.outer.len() == 3 && !p.wild));
         assert!(all.iter().any(|p| p.mixed));
     }

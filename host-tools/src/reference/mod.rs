@@ -23,20 +23,22 @@ pub struct Pixel {
     pub primitive: u32,
 }
 
-/// The reference's picture and its log.
+/// The reference's picture and its log; `M` is what primitives are painted with.
 #[derive(Debug, Clone)]
-pub struct Rendered {
+pub struct Rendered<M> {
     /// Width in pixels.
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
     /// `width * height` pixels, row by row from the top.
     pub pixels: Vec<Pixel>,
+    /// Which z/w are drawn; the core's 65535 steps of depth span them.
+    pub depth_range: [f64; 2],
     /// Every primitive's polygons, in drawing order.
-    pub polygons: Vec<Polygon>,
+    pub polygons: Vec<Polygon<M>>,
 }
 
-impl Rendered {
+impl<M> Rendered<M> {
     /// The picture in bytes, RGBA: floor(255 v), clamped to 0…255.
     pub fn bytes(&self) -> Vec<[u8; 4]> {
         (self.pixels.iter()).map(|pixel| pixel.color.map(byte)).collect()

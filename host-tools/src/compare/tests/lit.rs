@@ -168,7 +168,7 @@ fn hill(moved: impl Fn(usize) -> [f64; 2], changed: impl Fn(&mut Vertex), bulb: 
     let texels = (0..64u8)
         .map(|k| [50 + 3 * k, 255 - 3 * k, 90 + 20 * (k % 8), 4 * k])
         .collect();
-    let texture = std::sync::Arc::new(crate::picture::Picture::new(8, 8, texels));
+    let texture = Arc::new(crate::picture::Picture::new(8, 8, texels));
     let prepare = |r: &mut Reference| {
         r.texture(&texture).unwrap();
         r.decals();

@@ -11,8 +11,11 @@ use super::picture::{FixedPicture, Pixel};
 use super::stated::SNAP;
 use super::{Class, Comparison, compare};
 use crate::backend::{BackEnd, Surface, Vertex};
-use crate::reference::Rendered;
 use crate::reference::hw2::Reference;
+use crate::reference::material::Material;
+use std::sync::Arc;
+
+type Rendered = crate::reference::Rendered<Arc<Material>>;
 
 /// Width and height of the pictures: a power of two, so that positions in px come through exactly.
 const SIZE: u32 = 32;

@@ -9,7 +9,7 @@ use crate::compare::stated::MIXED_HEADROOM;
 use crate::reference::Pixel;
 use crate::reference::attributes::{Attributes, Bounds, COUNT};
 use crate::reference::clip::{Corner, Side, clip};
-use crate::reference::log::Primitive;
+use crate::reference::log::{Polygon, Primitive};
 use crate::reference::material::{Fill, Material};
 use crate::reference::raster::{self, Point, Q, REST, X, Y, Z};
 
@@ -39,14 +39,22 @@ impl Reference {
         }
         let logged = Primitive {
             number,
-            material,
+            mixed_headroom: if material.is_lit() || material.texture().is_some() {
+                MIXED_HEADROOM
+            } else {
+                1.0
+            },
             triangle: &triangle,
             planes: &self.planes,
             projection: &self.projection,
             size: [f64::from(self.width), f64::from(self.height)],
             cull: self.cull,
         };
-        self.polygons.extend(logged.polygons());
+        let polygon = |outline| Polygon {
+            outline,
+            material: Arc::clone(material),
+        };
+        self.polygons.extend(logged.outlines().into_iter().map(polygon));
     }
 
     /// The material with the triangle's own normal where that counts: for flat surfaces after `flatnormals`, and for a

@@ -11,7 +11,7 @@ use crate::picture::Picture;
 use crate::reference::bound::Tracked;
 use crate::reference::clip::Plane;
 use crate::reference::log::Polygon;
-use crate::reference::material::Light;
+use crate::reference::material::{Light, Material};
 use crate::reference::matrix::Matrix;
 use crate::reference::{Pixel, Rendered};
 
@@ -20,7 +20,7 @@ pub struct Reference {
     width: u32,
     height: u32,
     pixels: Vec<Pixel>,
-    polygons: Vec<Polygon>,
+    polygons: Vec<Polygon<Arc<Material>>>,
     model_view: Tracked,
     projection: Tracked,
     directions: Tracked,
@@ -60,11 +60,12 @@ impl Reference {
     }
 
     /// The picture and the log.
-    pub fn finish(self) -> Rendered {
+    pub fn finish(self) -> Rendered<Arc<Material>> {
         Rendered {
             width: self.width,
             height: self.height,
             pixels: self.pixels,
+            depth_range: [0.0, 1.0],
             polygons: self.polygons,
         }
     }

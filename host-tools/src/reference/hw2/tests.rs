@@ -23,7 +23,7 @@ fn everything(z: f64) -> [Vertex; 3] {
     [[-1.0, -1.0, z, 1.0], [3.0, -1.0, z, 1.0], [-1.0, 3.0, z, 1.0]].map(vertex)
 }
 
-fn drawn(draw: impl Fn(&mut Reference)) -> Rendered {
+fn drawn(draw: impl Fn(&mut Reference)) -> Rendered<Arc<Material>> {
     let mut reference = Reference::new(4, 4);
     draw(&mut reference);
     reference.finish()
@@ -290,10 +290,10 @@ fn patch(z: f64) -> [Vertex; 16] {
 #[test]
 fn a_patch_draws_numbered_triangles_without_gaps() {
     let picture = drawn(|r| r.patch(5, 1, Patch::Rectangular(&patch(0.5)), WHITE).unwrap());
-    let numbers: Vec<u32> = picture.polygons.iter().map(|p| p.primitive).collect();
+    let numbers: Vec<u32> = picture.polygons.iter().map(|p| p.outline.primitive).collect();
     assert_eq!(numbers, (5..13).collect::<Vec<_>>());
     assert!(picture.pixels.iter().all(|p| (5..13).contains(&p.primitive)));
-    assert!(picture.polygons[0].outer.iter().all(|c| c.reach < 0.003));
+    assert!(picture.polygons[0].outline.outer.iter().all(|c| c.reach < 0.003));
 }
 
 #[test]
