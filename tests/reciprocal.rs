@@ -19,6 +19,15 @@ fn every_mantissa_of_twenty_bits() {
     }
 }
 
+/// All of them: that two corrections are enough is known from here. Half a minute.
+#[test]
+#[ignore = "walks 2^31 divisors"]
+fn every_divisor() {
+    for divisor in 1 << 31..=u32::MAX {
+        assert_eq!(reciprocal(divisor), exact(divisor), "{divisor:#x}");
+    }
+}
+
 /// Around the ends of the 128 intervals of the seed table, and of the domain.
 #[test]
 fn every_interval_of_the_table() {

@@ -23,15 +23,14 @@ pub fn reciprocal(divisor: u32) -> u64 {
         let correction = ((error >> 31) * (x as i64 >> 1)) >> 31;
         x = (x as i64 + correction).clamp(1 << 31, u32::MAX as i64) as u64;
     }
-    // |remainder| is below a few divisors now (`tests/reciprocal.rs` walks the mantissas): step to the exact floor.
-    let mut remainder = (1u64 << 63).wrapping_sub(x.wrapping_mul(divisor as u64)) as i64;
-    while remainder < 0 {
-        remainder += divisor as i64;
-        x -= 1;
-    }
-    while remainder >= divisor as i64 {
-        remainder -= divisor as i64;
-        x += 1;
+    // The steps come from below: of all divisors, none has more than two left to the exact floor (`tests/reciprocal.rs` walks
+    // them). Not a loop until the remainder is small, which compilers take for a division and make one of.
+    let mut remainder = (1u64 << 63).wrapping_sub(x.wrapping_mul(divisor as u64));
+    for _ in 0..2 {
+        if remainder >= divisor as u64 {
+            remainder -= divisor as u64;
+            x += 1;
+        }
     }
     x
 }
