@@ -6,10 +6,16 @@ use crate::gradient::{Basis, Plane, Ramp};
 use crate::line::Line;
 use crate::num::Word;
 use crate::screen::{Corner, Shape};
-use crate::span::{doubled_area, scan};
+use crate::span::{Scan, Spans, doubled_area};
 use crate::target::{Target, pixels};
 use crate::varying::Varying;
 use crate::view::{Carried, Vertex, View};
+
+mod segment;
+mod square;
+
+pub use segment::{primitive_segment, primitive_wu_line, segment, stroke, wu_line, wu_stroke};
+pub use square::{disc, primitive_billboard, primitive_disc, primitive_square, square};
 
 /// Draws a triangle with corners within ±4096 px, whichever way they run, onto a target within 0…4096 px.
 ///
@@ -93,6 +99,18 @@ where
     S: Shape<Varying = F::Varying>,
     F: Fragment<Pixel = C::Pixel>,
 {
+    paint(color, depth, shape, &Scan::<W, _>::new(shape, area > 0), fragment);
+}
+
+/// Draws what `spans` cover, with the values of `shape`.
+#[inline(always)]
+fn paint<C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, spans: &impl Spans, fragment: &F)
+where
+    C: Target,
+    D: Depth,
+    S: Shape<Varying = F::Varying>,
+    F: Fragment<Pixel = C::Pixel>,
+{
     let Some(basis) = Basis::new(shape) else {
         return;
     };
@@ -104,7 +122,7 @@ where
     };
     let planes = F::Varying::planes(&basis, count, |i| shape.varying(i));
     let window = color.window();
-    scan::<W>(shape, area > 0, depth.limit(window), |span| {
+    spans.each(depth.limit(window), |span| {
         let pixels = pixels(color, window, &span);
         if !D::ENABLED
             && let Some(pixel) = fragment.solid()

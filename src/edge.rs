@@ -88,6 +88,18 @@ impl<W: Word> Edge<W> {
         self.column.low_i32() + (self.remainder > W::ZERO) as i32
     }
 
+    /// The column that the edge is in or at the left side of in this row: floor.
+    #[inline(always)]
+    pub(crate) fn column_before(&self) -> i32 {
+        self.column.low_i32()
+    }
+
+    /// How far right of [`column_before`](Self::column_before), in 1/(256·dy) px: exact, 0 up to and without a pixel.
+    #[inline(always)]
+    pub(crate) fn remainder(&self) -> W {
+        self.remainder
+    }
+
     /// One row down.
     #[inline(always)]
     pub fn descend(&mut self) {

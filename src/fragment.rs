@@ -34,6 +34,20 @@ pub trait Fragment {
     fn shade(&self, values: <Self::Varying as Varying>::Values, below: Self::Pixel) -> Option<Self::Pixel>;
 }
 
+/// A fragment program that can colour a part of a pixel, as [Wu lines](crate::draw::wu_line) want.
+///
+/// The example is [`draw::wu_line`](crate::draw::wu_line)'s.
+pub trait Antialiased: Fragment {
+    /// As [`shade`](Fragment::shade), for a fragment that covers `part` of the pixel, 0…2^28 in units of 2^-28. Where
+    /// there is alpha, it is multiplied by that. A part of 0 comes too.
+    fn shade_part(
+        &self,
+        values: <Self::Varying as Varying>::Values,
+        part: i32,
+        below: Self::Pixel,
+    ) -> Option<Self::Pixel>;
+}
+
 /// One colour for the whole primitive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Flat<P>(pub P);

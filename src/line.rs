@@ -36,7 +36,28 @@ pub struct Line {
 impl Line {
     /// The part on `window` of the line from the pixel `from` to the pixel `to`, which is left out.
     pub fn new(from: (i16, i16), to: (i16, i16), window: Window) -> Self {
-        let (dx, dy) = (to.0 as i32 - from.0 as i32, to.1 as i32 - from.1 as i32);
+        let wide = |(x, y): (i16, i16)| (x as i32, y as i32);
+        Self::with_last(wide(from), wide(to), 0, window)
+    }
+
+    /// The part on `window` of the line from the pixel `from` to the pixel `to`, both drawn; coordinates within ±2^15.
+    ///
+    /// ```
+    /// use fixel::{line::Line, window::Window};
+    /// let window = Window::new(0, 0, 8, 8);
+    /// let both: Vec<_> = Line::closed((0, 0), (4, 3), window).collect();
+    /// assert_eq!(both, [(0, 0), (1, 1), (2, 2), (3, 2), (4, 3)]);
+    /// assert_eq!(Line::closed((7, 7), (7, 7), window).count(), 1);
+    /// ```
+    pub fn closed(from: (i32, i32), to: (i32, i32), window: Window) -> Self {
+        const FAR: i32 = 1 << 15;
+        let within = |(x, y): (i32, i32)| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR));
+        Self::with_last(within(from), within(to), 1, window)
+    }
+
+    /// With the last pixel if `last` is 1.
+    fn with_last(from: (i32, i32), to: (i32, i32), last: i64, window: Window) -> Self {
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let x_is_major = dx.abs() >= dy.abs();
         let (along, across, length, rise) = if x_is_major {
             (
@@ -79,7 +100,7 @@ impl Line {
             _ if minor < first_minor || minor >= end_minor => end = 0,
             _ => {}
         }
-        let (first, end) = (first.max(0), end.min(length));
+        let (first, end) = (first.max(0), end.min(length + last));
         let numerator = 2 * first * rise + length;
         let quotient = floor_div(numerator, denominator);
         Line {

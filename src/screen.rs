@@ -103,7 +103,23 @@ pub struct Corner<V> {
     pub varying: V,
 }
 
-/// The corners of a polygon, as the rooms from setup on want them.
+/// What squares and discs lie around: a snapped position anywhere, for they are cut to the picture, not clipped.
+///
+/// ```
+/// use fixel::screen::{Center, FineDepth, SubPx};
+/// let center = Center { x: SubPx::lit("12.5"), y: SubPx::lit("-90000"), depth: FineDepth::ZERO };
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Center {
+    /// To the right.
+    pub x: SubPx,
+    /// Downwards.
+    pub y: SubPx,
+    /// How far; not looked at without a depth buffer.
+    pub depth: FineDepth,
+}
+
+/// The corners of a polygon, or the two ends of a line, as the rooms from setup on want them.
 pub trait Shape: Corners {
     /// What each corner carries.
     type Varying: Varying;
@@ -120,8 +136,7 @@ impl<V> Corners for [Corner<V>; 3] {
     }
     #[inline(always)]
     fn position(&self, index: usize) -> (i32, i32) {
-        let Position { x, y } = pick(self, index).position;
-        (x.to_bits(), y.to_bits())
+        bits(pick(self, index).position)
     }
 }
 
@@ -130,13 +145,53 @@ impl<V: Varying> Shape for [Corner<V>; 3] {
 
     #[inline(always)]
     fn depth(&self, index: usize) -> i32 {
-        // The top bit is free: 65535 steps are the end of the range.
-        pick(self, index).depth.to_bits().min(65535 << 15) as i32
+        depth_bits(pick(self, index).depth)
     }
     #[inline(always)]
     fn varying(&self, index: usize) -> V {
         pick(self, index).varying
     }
+}
+
+impl<V> Corners for [Corner<V>; 2] {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        2
+    }
+    #[inline(always)]
+    fn position(&self, index: usize) -> (i32, i32) {
+        bits(end(self, index).position)
+    }
+}
+
+impl<V: Varying> Shape for [Corner<V>; 2] {
+    type Varying = V;
+
+    #[inline(always)]
+    fn depth(&self, index: usize) -> i32 {
+        depth_bits(end(self, index).depth)
+    }
+    #[inline(always)]
+    fn varying(&self, index: usize) -> V {
+        end(self, index).varying
+    }
+}
+
+#[inline(always)]
+fn bits(Position { x, y }: Position) -> (i32, i32) {
+    (x.to_bits(), y.to_bits())
+}
+
+/// In units of 2^-15 step. The top bit is free: 65535 steps are the end of the range.
+#[inline(always)]
+pub(crate) fn depth_bits(depth: FineDepth) -> i32 {
+    depth.to_bits().min(65535 << 15) as i32
+}
+
+/// End `index` of two, the last for any larger index.
+#[inline(always)]
+pub(crate) fn end<E>([a, b]: &[E; 2], index: usize) -> &E {
+    if index == 0 { a } else { b }
 }
 
 /// Corner `index` of three, the last for any larger index: no bounds to check.

@@ -4,6 +4,8 @@
 //! the top corner to the bottom one. That is fewer edges to set up, and exact where a fan is not: cut points that fall
 //! within 1/256 px of a corner can turn a fan's sliver around, and a turned sliver is a pixel drawn twice.
 
+use core::marker::PhantomData;
+
 use crate::edge::{Edge, first_row};
 use crate::num::Word;
 use crate::window::Window;
@@ -43,6 +45,37 @@ pub struct Span {
     pub whole_left: i32,
     /// The column after the last covered, on the window or not.
     pub whole_right: i32,
+}
+
+/// What covers samples row by row.
+pub(crate) trait Spans {
+    /// Calls `draw` with every span on `window`, from the top.
+    fn each(&self, window: Window, draw: impl FnMut(Span));
+}
+
+/// A convex polygon as its [`scan`] covers it.
+pub(crate) struct Scan<'s, W, S> {
+    corners: &'s S,
+    ccw: bool,
+    word: PhantomData<W>,
+}
+
+impl<'s, W, S> Scan<'s, W, S> {
+    #[inline(always)]
+    pub(crate) fn new(corners: &'s S, ccw: bool) -> Self {
+        Scan {
+            corners,
+            ccw,
+            word: PhantomData,
+        }
+    }
+}
+
+impl<W: Word, S: Corners> Spans for Scan<'_, W, S> {
+    #[inline(always)]
+    fn each(&self, window: Window, draw: impl FnMut(Span)) {
+        scan::<W>(self.corners, self.ccw, window, draw);
+    }
 }
 
 /// Twice the signed area in square subpixels, exactly: positive where the corners run counter-clockwise as seen on a

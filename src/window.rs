@@ -42,6 +42,11 @@ impl Window {
         }
     }
 
+    /// Whether it holds the pixel (x, y).
+    pub fn contains(self, (x, y): (i32, i32)) -> bool {
+        (self.left..self.right).contains(&x) && (self.top..self.bottom).contains(&y)
+    }
+
     /// Whether it holds no pixel.
     pub fn is_empty(self) -> bool {
         self.left >= self.right || self.top >= self.bottom
