@@ -107,6 +107,36 @@ impl<T: Word> Matrix<T> {
         Ok(turn.product(&Self::translation(eye.negated())))
     }
 
+    /// World space to eye space for a camera at `position`, turned by `angle` about `axis` from looking along −z with y up:
+    /// the inverse of translation(position) · rotation(angle, axis), which is that rotation transposed · translation(−position).
+    ///
+    /// With angle 0 the axis does not matter, not even one of length 0.
+    ///
+    /// Entries share one scale: far from the origin the turn keeps 2^-BITS of the position. With 32-bit words and a camera
+    /// thousands of lengths away from the origin, move the scene there first.
+    ///
+    /// # Errors
+    /// [`Error::ZeroVector`] for an axis of length 0 with any other angle.
+    ///
+    /// ```
+    /// use fixel::{matrix::Matrix, num::{Angle, Block, SineTable}};
+    /// // At (5, 0, 0), turned to the left by 90°: looking along −x, with the world's −z to the right.
+    /// let (position, axis) = (Block::from_integers([5, 0, 0]), Block::from_integers([0, 1, 0]));
+    /// let camera = Matrix::<i32>::camera::<SineTable>(position, axis, Angle::from_degrees(90))?;
+    /// let seen = camera.transform(Block::from_integers([2, 0, -1, 1]));
+    /// assert_eq!(seen, Block::from_integers([1, 0, -3, 1]));
+    /// # Ok::<(), fixel::error::Error>(())
+    /// ```
+    pub fn camera<S: Trigonometry>(position: Block<T, 3>, axis: Block<T, 3>, angle: Angle) -> Result<Self, Error> {
+        let back = Self::translation(position.negated());
+        if angle == Angle::default() {
+            return Ok(back);
+        }
+        let [[a, b, c], [d, e, f], [g, h, i]] = rotation_rows::<T, S>(angle, axis)?;
+        let turn = Self::from_linear([[a, d, g], [b, e, h], [c, f, i]], -(T::BITS as i32));
+        Ok(turn.product(&back))
+    }
+
     /// The perspective projection of `glFrustum`: left, right, bottom, top, near, far; they may be negative or reversed.
     ///
     /// # Errors
@@ -133,6 +163,53 @@ impl<T: Word> Matrix<T> {
             Scaled::from_integer(-1),
             o,
         ]))
+    }
+
+    /// The perspective projection with the full *horizontal* angle `fov`, and `aspect` times as wide as high: entries
+    /// 1/tan(fov/2), aspect/tan(fov/2), −(f+n)/(f−n), −2fn/(f−n), and −1 for w = −z.
+    ///
+    /// # Errors
+    /// [`Error::FlatView`] for an angle of 0 or where near = far.
+    ///
+    /// ```
+    /// use fixel::{matrix::Matrix, num::{Angle, Scaled, SineTable}};
+    /// let [near, far] = [1, 3].map(Scaled::from_integer);
+    /// let square = Scaled::from_integer(1);
+    /// let wide = Matrix::<i64>::perspective::<SineTable>(Angle::from_degrees(90), square, near, far)?;
+    /// let frustum = Matrix::frustum([-1, 1, -1, 1, 1, 3].map(Scaled::from_integer))?;
+    /// assert_eq!(wide.entries().split()[10], frustum.entries().split()[10]);
+    /// # Ok::<(), fixel::error::Error>(())
+    /// ```
+    pub fn perspective<S: Trigonometry>(
+        fov: Angle,
+        aspect: Scaled<T>,
+        near: Scaled<T>,
+        far: Scaled<T>,
+    ) -> Result<Self, Error> {
+        let (sin, cos) = S::sin_cos::<T>(Angle::from_turns(fov.turns() / 2));
+        let unit = |m: T| Scaled::new([m], -(T::BITS as i32));
+        let x = unit(cos).over(unit(sin)).ok_or(Error::FlatView)?;
+        let depth = far.minus(near);
+        let over = |a: Scaled<T>| a.over(depth).ok_or(Error::FlatView);
+        let (z, zw) = (
+            over(far.plus(near))?.negated(),
+            over(far.times(near).scaled(1))?.negated(),
+        );
+        let (o, y) = (Scaled::ZERO, x.times(aspect));
+        let w = Scaled::from_integer(-1);
+        Ok(Self::from_scaled([x, o, o, o, o, y, o, o, o, o, z, zw, o, o, w, o]))
+    }
+
+    /// An object in the world: `translation(position)` · `rotation` · `scaling(scale)`.
+    ///
+    /// ```
+    /// use fixel::{matrix::Matrix, num::Block};
+    /// let (position, scale) = (Block::from_integers([5, 0, 0]), Block::from_integers([2, 2, 2]));
+    /// let object = Matrix::<i32>::model(position, &Matrix::identity(), scale);
+    /// assert_eq!(object.transform(Block::from_integers([1, 1, 1, 1])), Block::from_integers([7, 2, 2, 1]));
+    /// ```
+    pub fn model(position: Block<T, 3>, rotation: &Self, scale: Block<T, 3>) -> Self {
+        Self::translation(position).product(&rotation.product(&Self::scaling(scale)))
     }
 
     /// The parallel projection of `glOrtho`, taking −near to depth −1 and −far to 1.

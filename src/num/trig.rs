@@ -33,6 +33,19 @@ impl Angle {
         Angle((((degrees.rem_euclid(360) as u128) << 64) / 360) as u64)
     }
 
+    /// Radians in units of 2^-32, any number of turns; within (1 + 2^-33·|radians|)·2^-64 turn.
+    ///
+    /// ```
+    /// use fixel::num::Angle;
+    /// let half = Angle::from_radians(13_493_037_705); // π
+    /// assert!(half.turns().abs_diff(1 << 63) < 1 << 31);
+    /// ```
+    pub const fn from_radians(radians: i64) -> Self {
+        // 2^32/2π in units of 2^-32, rounded: half a unit counts 2^-33 per unit of the radians.
+        const TURNS_PER_UNIT: i128 = 2_935_890_503_282_001_226;
+        Angle(((radians as i128 * TURNS_PER_UNIT) >> 32) as u64)
+    }
+
     /// In units of 2^-64 turn.
     pub const fn turns(self) -> u64 {
         self.0

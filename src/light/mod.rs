@@ -1,5 +1,7 @@
 //! Light on one fragment: suns and bulbs, diffuse and Blinn-Phong, any brightness, either sign.
 //!
+//! This is the rule of HW2, in eye space; that of `.iv`, in world space and with ambient light, is [`world`].
+//!
 //! With surface colour o, unit normal n and eye position p of the fragment (the eye is the origin), every light whose
 //! direction l has c = n·l > 0 adds
 //!
@@ -39,6 +41,8 @@
 //! assert!(red.abs_diff(FULL / 2 + FULL / 256) < 10);
 //! # Ok::<(), fixel::error::Error>(())
 //! ```
+
+pub mod world;
 
 use heapless::Vec;
 
