@@ -44,11 +44,12 @@ pub enum Behind {
 pub struct ClipCorner<T> {
     /// Homogeneous position.
     pub position: Block<T, 4>,
-    /// position = Σ weight · vertex, over the three vertices of the triangle; each within 2^(2−BITS) of the largest weight.
+    /// position = Σ weight · vertex, over the three vertices of the triangle or the two of the line (the third weight is
+    /// then 0); each within 2^(2−BITS) of the largest weight.
     pub weights: Block<T, 3>,
 }
 
-/// A convex polygon of up to 9 + N corners: three, two more for the depth range, four for the guard band, and one for
+/// A line, or a convex polygon of up to 9 + N corners: three, two more for the depth range, four for the guard band, and one for
 /// each of N user planes.
 #[derive(Debug, Clone)]
 pub struct Polygon<C, const N: usize> {
@@ -107,6 +108,23 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
     }
 }
 
+impl<T: Word, const N: usize> Polygon<ClipCorner<T>, N> {
+    /// A triangle whose corners are its vertices, or a line whose ends are, if K is 2.
+    pub(crate) fn of_vertices<const K: usize>(vertices: [Block<T, 4>; K]) -> Self {
+        let one = T::ONE << (T::BITS - 1);
+        let unit = [
+            [one, T::ZERO, T::ZERO],
+            [T::ZERO, one, T::ZERO],
+            [T::ZERO, T::ZERO, one],
+        ];
+        let corners = vertices.into_iter().zip(unit).map(|(position, weights)| ClipCorner {
+            position,
+            weights: Block::new(weights, 1 - T::BITS as i32),
+        });
+        corners.collect()
+    }
+}
+
 impl<C: Copy, const N: usize> FromIterator<C> for Polygon<C, N> {
     /// The first 9 + N corners.
     fn from_iter<I: IntoIterator<Item = C>>(corners: I) -> Self {
@@ -137,29 +155,75 @@ impl<T: Word, const N: usize> Planes<T, N> {
         self.0.push(plane).map_err(|_| Error::TooManyPlanes)
     }
 
-    /// What of the triangle is left; `None` for nothing.
-    pub fn clip(&self, vertices: [Block<T, 4>; 3]) -> Option<Polygon<ClipCorner<T>, N>> {
-        let one = T::ONE << (T::BITS - 1);
-        let unit = [
-            [one, T::ZERO, T::ZERO],
-            [T::ZERO, one, T::ZERO],
-            [T::ZERO, T::ZERO, one],
-        ];
-        let mut polygon = Polygon::default();
-        for (position, weights) in vertices.into_iter().zip(unit) {
-            polygon.push(ClipCorner {
-                position,
-                weights: Block::new(weights, 1 - T::BITS as i32),
-            });
-        }
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// What is left of a triangle, or of a line if K is 2: the first three vertices count. `None` for nothing.
+    pub fn clip<const K: usize>(&self, vertices: [Block<T, 4>; K]) -> Option<Polygon<ClipCorner<T>, N>> {
+        let mut polygon = Polygon::of_vertices(vertices);
         for plane in &self.0 {
-            let [a, b, c, d] = plane.mantissas();
-            cut(&mut polygon, |[x, y, z, w]| {
-                a.times(x) + b.times(y) + c.times(z) + d.times(w)
-            });
+            cut(&mut polygon, |position| distance(plane, position));
         }
         (!polygon.is_empty()).then_some(polygon)
     }
+
+    /// Whether a point is on the kept side of all of them, exactly.
+    pub(crate) fn hold(&self, point: Block<T, 4>) -> bool {
+        self.0
+            .iter()
+            .all(|plane| distance(plane, point.mantissas()) >= T::Wide::ZERO)
+    }
+}
+
+/// p·(x, y, z, w), up to a positive factor: exact.
+pub(crate) fn distance<T: Word>(plane: &Block<T, 4>, [x, y, z, w]: [T; 4]) -> T::Wide {
+    let [a, b, c, d] = plane.mantissas();
+    a.times(x) + b.times(y) + c.times(z) + d.times(w)
+}
+
+/// Cuts a polygon in clip space to what lies before the camera, all w > 0: by the near plane, and where that is not enough
+/// (there is none, or it passes behind the camera) by all that [`to_view`] cuts by.
+pub(crate) fn before_camera<T: Word, W: Word, const N: usize>(
+    mut polygon: Polygon<ClipCorner<T>, N>,
+    viewport: &Viewport<W>,
+    range: DepthRange,
+) -> Option<Polygon<ClipCorner<T>, N>> {
+    cut_near(&mut polygon, range);
+    if polygon.iter().all(is_in_front) {
+        return Some(polygon);
+    }
+    to_view(polygon, viewport, range, Behind::Cut)
+}
+
+fn is_in_front<T: Word>(corner: &ClipCorner<T>) -> bool {
+    let [.., w] = corner.position.mantissas();
+    w > T::ZERO
+}
+
+fn cut_near<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, range: DepthRange) {
+    match range {
+        DepthRange::ZeroToOne => cut(polygon, |[_, _, z, _]| z.widen()),
+        DepthRange::MinusOneToOne => cut(polygon, |[_, _, z, w]| z.widen() + w.widen()),
+        DepthRange::Unlimited => {}
+    }
+}
+
+/// How far a point lies before the far plane, up to a positive factor: exact.
+fn before_far<T: Word>([_, _, z, w]: [T; 4]) -> T::Wide {
+    w.widen() - z.widen()
+}
+
+/// Whether a corner lies beyond the far plane.
+pub(crate) fn is_beyond<T: Word>(corner: &ClipCorner<T>, range: DepthRange) -> bool {
+    range != DepthRange::Unlimited && before_far(corner.position.mantissas()) < T::Wide::ZERO
+}
+
+/// Where the edge from `inner` to `outer`, which [is beyond](is_beyond) the far plane, crosses that.
+pub(crate) fn at_far<T: Word>(inner: &ClipCorner<T>, outer: &ClipCorner<T>) -> ClipCorner<T> {
+    let of = |corner: &ClipCorner<T>| before_far(corner.position.mantissas());
+    crossing(inner, of(inner), outer, of(outer))
 }
 
 /// Cuts a polygon in clip space to the depth range and the guard band; every corner that is left has w > 0. `None` for
@@ -185,29 +249,25 @@ pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
             }
         }
     }
-    match range {
-        DepthRange::ZeroToOne => cut(&mut polygon, |[_, _, z, _]| z.widen()),
-        DepthRange::MinusOneToOne => cut(&mut polygon, |[_, _, z, w]| z.widen() + w.widen()),
-        DepthRange::Unlimited => {}
-    }
+    cut_near(&mut polygon, range);
     if range != DepthRange::Unlimited {
-        cut(&mut polygon, |[_, _, z, w]| w.widen() - z.widen());
+        cut(&mut polygon, before_far);
     }
     for side in 0..4 {
         cut(&mut polygon, |position| viewport.guard_distance(position, side));
     }
-    let in_front = |corner: &ClipCorner<T>| {
-        let [.., w] = corner.position.mantissas();
-        w > T::ZERO
-    };
-    (!polygon.is_empty() && polygon.iter().all(in_front)).then_some(polygon)
+    (!polygon.is_empty() && polygon.iter().all(is_in_front)).then_some(polygon)
 }
 
-/// Keeps the part of a convex polygon whose distance is at least 0; none of it where no corner's is.
+/// Keeps the part of a convex polygon whose distance is at least 0; none of it where no corner's is. Two corners are a
+/// line, and stay one: they have one edge, not one there and one back.
 ///
 /// Exactly one run of corners is cut away, the one that holds the outermost, so that a polygon grows by at most one
 /// corner per plane. Rounding can leave another corner a last place outside; it stays where it is.
-fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, distance: impl Fn([T; 4]) -> T::Wide) {
+pub(crate) fn cut<T: Word, const N: usize>(
+    polygon: &mut Polygon<ClipCorner<T>, N>,
+    distance: impl Fn([T; 4]) -> T::Wide,
+) {
     let of = |corner: &ClipCorner<T>| distance(corner.position.mantissas());
     // Mantissas are normalised per corner, so that distances compare as angles do.
     let Some((outermost, least)) = polygon.iter().map(of).enumerate().min_by_key(|&(_, d)| d) else {
@@ -232,6 +292,9 @@ fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, distanc
         let (stays, next_stays) = (stays(i), stays(after(i + 1)));
         if stays {
             kept.push(*corner);
+        }
+        if count == 2 && i == 1 {
+            continue;
         }
         if stays && !next_stays {
             kept.push(crossing(corner, of(corner), next, of(next)));

@@ -9,6 +9,9 @@ use crate::window::Window;
 
 /// Whether a fragment of depth `new` is drawn over one of depth `old`, both 0…65535; smaller is nearer.
 pub trait Comparison {
+    /// Whether the depth of what passes is stored.
+    const STORES: bool = true;
+
     /// The rule. On words: comparing halfwords costs an instruction more per pixel.
     fn passes(new: u32, old: u32) -> bool;
 }
@@ -42,6 +45,24 @@ comparisons! {
     NotEqual: !=, "Only fragments of another depth than is stored.";
 }
 
+/// As [`Less`], but on a cell at [`FAR`] everything passes: so a fragment on the far plane itself is drawn where nothing else
+/// is, as if the buffer had been cleared to infinity (`.iv`).
+///
+/// ```
+/// use fixel::depth::{Comparison, FAR, LessOrFar};
+/// assert!(LessOrFar::passes(5, 6) && !LessOrFar::passes(5, 5));
+/// assert!(LessOrFar::passes(FAR as u32, FAR as u32));
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub enum LessOrFar {}
+
+impl Comparison for LessOrFar {
+    #[inline(always)]
+    fn passes(new: u32, old: u32) -> bool {
+        new < old || old == FAR as u32
+    }
+}
+
 /// Every fragment passes, and its depth is stored.
 #[derive(Debug, Clone, Copy)]
 pub enum Always {}
@@ -53,7 +74,25 @@ impl Comparison for Always {
     }
 }
 
-/// What a draw does about depth: [`NoDepth`] or a [`DepthBuffer`].
+/// Compares as `C` does, and stores nothing: for what is translucent.
+///
+/// ```
+/// use fixel::depth::{Comparison, Keep, LessOrEqual};
+/// assert!(Keep::<LessOrEqual>::passes(5, 5) && !Keep::<LessOrEqual>::STORES);
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Keep<C>(PhantomData<C>);
+
+impl<C: Comparison> Comparison for Keep<C> {
+    const STORES: bool = false;
+
+    #[inline(always)]
+    fn passes(new: u32, old: u32) -> bool {
+        C::passes(new, old)
+    }
+}
+
+/// What a draw does about depth: [`NoDepth`], a [`DepthBuffer`], or a [`Switched`] one.
 pub trait Depth {
     /// What there is to compare with at one pixel.
     type Cell<'a>;
@@ -70,6 +109,12 @@ pub trait Depth {
     fn cells(&mut self, span: &Span) -> Self::Cells<'_>;
     /// Compares `depth`, 0…65535, and stores it; whether the fragment is drawn.
     fn test(cell: Self::Cell<'_>, depth: u32) -> bool;
+
+    /// Whether a fragment beyond the far end of the range, where nothing is cut off there, can pass at all. It then comes
+    /// with depth 65535.
+    fn takes_beyond(&self) -> bool {
+        true
+    }
 }
 
 /// No depth: later drawing covers earlier, and nothing is computed or stored.
@@ -146,9 +191,139 @@ impl<D: Target<Pixel = u16>, C: Comparison> Depth for DepthBuffer<D, C> {
     #[inline(always)]
     fn test(cell: &mut u16, depth: u32) -> bool {
         let passes = C::passes(depth, *cell as u32);
-        if passes {
+        if passes && C::STORES {
             *cell = depth as u16;
         }
         passes
+    }
+    #[inline(always)]
+    fn takes_beyond(&self) -> bool {
+        C::passes(1 << 16, 0) || C::passes(1 << 16, FAR as u32)
+    }
+}
+
+/// As a [`DepthBuffer`], but what is done is chosen when drawing: for programs that draw both ways.
+///
+/// Costs the look at the options per fragment.
+///
+/// ```
+/// use fixel::depth::{FAR, Options, Switched};
+/// use fixel::target::Buffer;
+/// let mut memory = [FAR; 16 * 16];
+/// let mut depth = Switched::new(Buffer::new(&mut memory, 16, 16)?);
+/// depth.options.stores = false;
+/// # Ok::<(), fixel::error::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Switched<D> {
+    depths: D,
+    /// What is done.
+    pub options: Options,
+}
+
+/// What a [`Switched`] depth buffer does. The default compares with [`Relation::LessOrEqual`] and stores.
+///
+/// ```
+/// use fixel::depth::{Options, Relation};
+/// assert_eq!(Options::default(), Options { passes: Relation::LessOrEqual, stores: true });
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// Which fragments pass: [`Relation::Always`] is a test switched off.
+    pub passes: Relation,
+    /// Whether the depths of those that pass are stored.
+    pub stores: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            passes: Relation::LessOrEqual,
+            stores: true,
+        }
+    }
+}
+
+/// A [`Comparison`] chosen when drawing.
+///
+/// ```
+/// use fixel::depth::Relation;
+/// assert!(Relation::Less.passes(4, 5) && !Relation::Less.passes(5, 5));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Relation {
+    /// As [`Less`].
+    Less,
+    /// As [`LessOrEqual`].
+    LessOrEqual,
+    /// As [`Greater`].
+    Greater,
+    /// As [`GreaterOrEqual`].
+    GreaterOrEqual,
+    /// As [`Equal`].
+    Equal,
+    /// As [`NotEqual`].
+    NotEqual,
+    /// As [`Always`].
+    Always,
+}
+
+impl Relation {
+    /// Whether a fragment of depth `new` is drawn over one of depth `old`.
+    #[inline(always)]
+    pub fn passes(self, new: u32, old: u32) -> bool {
+        match self {
+            Relation::Less => new < old,
+            Relation::LessOrEqual => new <= old,
+            Relation::Greater => new > old,
+            Relation::GreaterOrEqual => new >= old,
+            Relation::Equal => new == old,
+            Relation::NotEqual => new != old,
+            Relation::Always => true,
+        }
+    }
+}
+
+impl<D: Target<Pixel = u16>> Switched<D> {
+    /// Tests against `depths` and writes what passes there, with the default [`Options`].
+    pub fn new(depths: D) -> Self {
+        Switched {
+            depths,
+            options: Options::default(),
+        }
+    }
+}
+
+impl<D: Target<Pixel = u16>> Depth for Switched<D> {
+    type Cell<'a> = (&'a mut u16, Options);
+    type Cells<'a>
+        = core::iter::Zip<core::slice::IterMut<'a, u16>, core::iter::Repeat<Options>>
+    where
+        Self: 'a;
+    const ENABLED: bool = true;
+
+    #[inline(always)]
+    fn limit(&self, window: Window) -> Window {
+        window.intersect(self.depths.window())
+    }
+    #[inline(always)]
+    fn cells(&mut self, span: &Span) -> Self::Cells<'_> {
+        let window = self.depths.window();
+        pixels(&mut self.depths, window, span)
+            .iter_mut()
+            .zip(core::iter::repeat(self.options))
+    }
+    #[inline(always)]
+    fn test((cell, options): (&mut u16, Options), depth: u32) -> bool {
+        let passes = options.passes.passes(depth, *cell as u32);
+        if passes && options.stores {
+            *cell = depth as u16;
+        }
+        passes
+    }
+    #[inline(always)]
+    fn takes_beyond(&self) -> bool {
+        let passes = self.options.passes;
+        passes.passes(1 << 16, 0) || passes.passes(1 << 16, FAR as u32)
     }
 }

@@ -51,6 +51,20 @@ pub trait Target {
     fn row(&mut self, row: i32) -> &mut [Self::Pixel];
 }
 
+/// A borrowed target, where several are put together in a tuple.
+impl<C: Target + ?Sized> Target for &mut C {
+    type Pixel = C::Pixel;
+
+    #[inline(always)]
+    fn window(&self) -> Window {
+        (**self).window()
+    }
+    #[inline(always)]
+    fn row(&mut self, row: i32) -> &mut [C::Pixel] {
+        (**self).row(row)
+    }
+}
+
 /// Rows in a slice, `stride` pixels apart: a whole picture, or a strip or tile of a larger one.
 ///
 /// ```

@@ -4,7 +4,7 @@
 use crate::gradient::{Basis, EXTRA_BITS, Place, Plane, Ramp};
 use crate::num::reciprocal;
 
-/// A kind of varying: `()`, [`Linear`], [`Perspective`].
+/// A kind of varying: `()`, [`Linear`], [`Perspective`], or a pair of them.
 pub trait Varying: Copy {
     /// What a polygon keeps of it.
     type Planes;
@@ -37,6 +37,48 @@ impl Varying for () {
     fn values(_: &(), _: &()) {}
     #[inline(always)]
     fn advance(_: &mut ()) {}
+}
+
+/// Two kinds side by side, such as colours that are linear over the screen and texture coordinates in perspective.
+///
+/// ```
+/// use fixel::{fragment::Fragment, varying::{Linear, Perspective}};
+///
+/// /// A grey per corner, darker on every other stripe of the surface.
+/// struct Stripes;
+///
+/// impl Fragment for Stripes {
+///     type Varying = (Linear<1>, Perspective<1>);
+///     type Pixel = u8;
+///     fn shade(&self, ([grey], [u]): ([i32; 1], [i32; 1]), _below: u8) -> Option<u8> {
+///         Some((grey >> 16 >> (u >> 16 & 1)) as u8)
+///     }
+/// }
+/// assert_eq!(Stripes.shade(([200 << 16], [3 << 16]), 0), Some(100));
+/// ```
+impl<A: Varying, B: Varying> Varying for (A, B) {
+    type Planes = (A::Planes, B::Planes);
+    type Ramps = (A::Ramps, B::Ramps);
+    type Values = (A::Values, B::Values);
+
+    #[inline]
+    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> Self::Planes {
+        let first = A::planes(basis, count, |i| corner(i).0);
+        (first, B::planes(basis, count, |i| corner(i).1))
+    }
+    #[inline(always)]
+    fn ramps(planes: &Self::Planes, place: &Place) -> Self::Ramps {
+        (A::ramps(&planes.0, place), B::ramps(&planes.1, place))
+    }
+    #[inline(always)]
+    fn values(planes: &Self::Planes, ramps: &Self::Ramps) -> Self::Values {
+        (A::values(&planes.0, &ramps.0), B::values(&planes.1, &ramps.1))
+    }
+    #[inline(always)]
+    fn advance(ramps: &mut Self::Ramps) {
+        A::advance(&mut ramps.0);
+        B::advance(&mut ramps.1);
+    }
 }
 
 /// N values linear over the screen, |v| ≤ 2^30 in units of the user's choice.
@@ -72,6 +114,43 @@ impl<const N: usize> Varying for Linear<N> {
     #[inline(always)]
     fn advance(ramps: &mut [Ramp<i32>; N]) {
         ramps.iter_mut().for_each(Ramp::<i32>::advance);
+    }
+}
+
+/// As [`Linear`], but where user planes cut a triangle in eye space its values are mixed as the position is, *before* the
+/// division by w, and the polygon is drawn as a fan, each triangle with its own values (MP1 without `hyp`). Without user
+/// planes, or where w is constant, it is the same as [`Linear`].
+///
+/// A fan's triangles share their diagonals exactly; only where a cut falls within 1/256 px of a corner can a diagonal be turned
+/// over by rounding, and a sample on it be drawn twice.
+///
+/// ```
+/// use fixel::varying::LinearFan;
+/// let gray = LinearFan([128 << 16]);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LinearFan<const N: usize>(pub [i32; N]);
+
+impl<const N: usize> Varying for LinearFan<N> {
+    type Planes = [Plane; N];
+    type Ramps = [Ramp<i32>; N];
+    type Values = [i32; N];
+
+    #[inline]
+    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> [Plane; N] {
+        planes(basis, count, |i| corner(i).0)
+    }
+    #[inline(always)]
+    fn ramps(planes: &[Plane; N], place: &Place) -> [Ramp<i32>; N] {
+        Linear::<N>::ramps(planes, place)
+    }
+    #[inline(always)]
+    fn values(planes: &[Plane; N], ramps: &[Ramp<i32>; N]) -> [i32; N] {
+        Linear::<N>::values(planes, ramps)
+    }
+    #[inline(always)]
+    fn advance(ramps: &mut [Ramp<i32>; N]) {
+        Linear::<N>::advance(ramps);
     }
 }
 

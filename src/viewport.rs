@@ -3,9 +3,10 @@
 use core::marker::PhantomData;
 
 use crate::clip::DepthRange;
-use crate::edge::SUBPIXELS;
+use crate::edge::{SUBPIXELS, first_row};
 use crate::error::Error;
 use crate::num::{Block, Wide, Word};
+use crate::window::Window;
 
 /// Where on the picture the view volume's x and y of −1…1 go, and where the samples of the pixels lie.
 ///
@@ -69,6 +70,30 @@ impl<W: Word> Viewport<W> {
         }
     }
 
+    /// The pixels whose samples lie in the rectangle.
+    ///
+    /// ```
+    /// use fixel::{viewport::Viewport, window::Window};
+    /// let half = Viewport::<i32>::new(160, 0, 160, 240)?.y_up().samples_at_centers();
+    /// assert_eq!(half.window(), Window::new(160, 0, 320, 240));
+    /// # Ok::<(), fixel::error::Error>(())
+    /// ```
+    pub fn window(&self) -> Window {
+        let (half_width, half_height) = (self.scale.0, self.scale.1.abs());
+        Window {
+            left: first_row(self.center.0 - half_width),
+            top: first_row(self.center.1 - half_height),
+            right: first_row(self.center.0 + half_width),
+            bottom: first_row(self.center.1 + half_height),
+        }
+    }
+
+    /// Whether rows run against y.
+    #[inline]
+    pub(crate) fn is_y_up(&self) -> bool {
+        self.scale.1 < 0
+    }
+
     /// The distances of a point with w > 0 to the four sides of the guard band, up to a common factor: all at least 0
     /// where its position is within ±[`Word::GUARD`] px. Exact.
     #[inline]
@@ -91,6 +116,17 @@ impl<W: Word> Viewport<W> {
     /// clipped ones leave by no more than rounding.
     #[inline]
     pub fn place<T: Word>(&self, position: Block<T, 4>, range: DepthRange) -> Option<(i32, i32, i32)> {
+        self.place_within(position, range, Self::LIMIT)
+    }
+
+    /// As [`place`](Self::place), but positions are moved to within ±`limit` subpixels.
+    #[inline]
+    pub(crate) fn place_within<T: Word>(
+        &self,
+        position: Block<T, 4>,
+        range: DepthRange,
+        limit: i32,
+    ) -> Option<(i32, i32, i32)> {
         let [x, y, z, w] = position.mantissas().map(T::widen);
         if w <= T::Wide::ZERO {
             return None;
@@ -99,7 +135,7 @@ impl<W: Word> Viewport<W> {
         let coordinate = |v: T::Wide, scale, center| {
             let numerator = v.times_small(scale) + w.times_small(center);
             let rounded = (numerator + numerator + w).div_floor(twice);
-            let limit = T::from_i32(Self::LIMIT).widen();
+            let limit = T::from_i32(limit).widen();
             rounded.max(-limit).min(limit).narrow().low_i32()
         };
         // 65535·2^15 per unit of z/w over 0…1.

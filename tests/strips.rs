@@ -6,9 +6,10 @@ use exact::{block, scaled};
 use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::depth::{DepthBuffer, FAR, LessOrEqual};
 use fixel::draw;
-use fixel::fragment::{Flat, Fragment};
+use fixel::fragment::{Antialiased, Flat, Fragment};
 use fixel::matrix::Matrix;
 use fixel::num::Word;
+use fixel::screen::SubPx;
 use fixel::target::Buffer;
 use fixel::varying::{Linear, Perspective, Varying};
 use fixel::view::{Cull, Vertex, View};
@@ -31,6 +32,12 @@ impl<V: Varying<Values = [i32; 2]>> Fragment for Mix<V> {
     }
 }
 
+impl<V: Varying<Values = [i32; 2]>> Antialiased for Mix<V> {
+    fn shade_part(&self, values: [i32; 2], part: i32, below: u32) -> Option<u32> {
+        self.shade(values, below).map(|new| new ^ (part as u32).rotate_left(5))
+    }
+}
+
 fn mix<V>() -> Mix<V> {
     Mix(std::marker::PhantomData)
 }
@@ -40,9 +47,25 @@ enum Kind {
     Flat,
     Linear,
     Perspective,
+    Segment,
+    WuLine,
+    Square,
+    Billboard,
+    Disc,
 }
 
-/// A triangle in eye space.
+const KINDS: &[Kind] = &[
+    Kind::Flat,
+    Kind::Linear,
+    Kind::Perspective,
+    Kind::Segment,
+    Kind::WuLine,
+    Kind::Square,
+    Kind::Billboard,
+    Kind::Disc,
+];
+
+/// A triangle in eye space, or what begins at its first corners.
 #[derive(Debug, Clone)]
 struct Primitive {
     kind: Kind,
@@ -51,7 +74,7 @@ struct Primitive {
 }
 
 fn primitive() -> impl Strategy<Value = Primitive> {
-    let kinds = prop::sample::select(&[Kind::Flat, Kind::Linear, Kind::Perspective][..]);
+    let kinds = prop::sample::select(KINDS);
     let corner = (-9.0..9.0f64, -9.0..9.0f64, -12.0..3.0f64).prop_map(|(x, y, z)| [x, y, z, 1.0]);
     let carried = prop::array::uniform3(prop::array::uniform2(-(1 << 30)..=1 << 30));
     (kinds, prop::array::uniform3(corner), carried).prop_map(|(kind, corners, carried)| Primitive {
@@ -77,6 +100,12 @@ fn draw_part<T: Word, W: Word>(
             position: positions[i],
             carried: primitive.carried[i],
         });
+        let [a, b, c] = vertices;
+        let (position, size) = (
+            a.position,
+            SubPx::from_bits(primitive.carried[0][0].rem_euclid(30 << 8)),
+        );
+        let values = (primitive.carried[1], primitive.carried[2]);
         match primitive.kind {
             Kind::Flat => {
                 let vertices = vertices.map(|v| Vertex {
@@ -93,6 +122,25 @@ fn draw_part<T: Word, W: Word>(
             }
             Kind::Linear => draw::primitive(view, &mut target, &mut depth, &vertices, &mix::<Linear<2>>()),
             Kind::Perspective => draw::primitive(view, &mut target, &mut depth, &vertices, &mix::<Perspective<2>>()),
+            Kind::Segment => {
+                draw::primitive_segment(view, &mut target, &mut depth, &[a, b], &mix::<Linear<2>>());
+                draw::primitive_segment(view, &mut target, &mut depth, &[b, c], &mix::<Perspective<2>>());
+            }
+            Kind::WuLine => {
+                draw::primitive_wu_line(view, &mut target, &mut depth, &[a, b], &mix::<Linear<2>>());
+                draw::primitive_wu_line(view, &mut target, &mut depth, &[b, c], &mix::<Perspective<2>>());
+            }
+            Kind::Square => {
+                let (constant, fragment) = (Linear(values.0), mix());
+                draw::primitive_square(view, &mut target, &mut depth, position, size, constant, &fragment);
+            }
+            Kind::Billboard => {
+                draw::primitive_billboard(view, &mut target, &mut depth, position, size, values, &mix());
+            }
+            Kind::Disc => {
+                let (constant, fragment) = (Linear(values.0), mix());
+                draw::primitive_disc(view, &mut target, &mut depth, position, size, constant, &fragment);
+            }
         }
     }
 }
@@ -159,7 +207,7 @@ proptest! {
 
     #[test]
     fn strips_and_tiles_have_the_same_bits(
-        scene in prop::collection::vec(primitive(), 1..8),
+        scene in prop::collection::vec(primitive(), 1..12),
         range in prop::sample::select(&[DepthRange::ZeroToOne, DepthRange::MinusOneToOne, DepthRange::Unlimited][..]),
         behind in prop::sample::select(&[Behind::Cut, Behind::Divide][..]), tile in (1..30i32, 1..30i32),
     ) {

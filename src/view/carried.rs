@@ -1,0 +1,314 @@
+//! What vertices carry, mixed for the corners that clipping leaves.
+
+use super::{in_front, w_of};
+use crate::clip::{ClipCorner, Polygon};
+use crate::num::{Block, Scaled, Word};
+use crate::varying::{Linear, LinearFan, Perspective, Varying};
+
+/// A varying that can be mixed from what three vertices carry.
+pub trait Carried: Varying {
+    /// What a vertex carries.
+    type Vertex: Copy;
+    /// Which shares [`mix`](Self::mix) wants.
+    const WANTS: Wants;
+    /// At a corner of the polygon.
+    fn mix(vertices: [Self::Vertex; 3], weights: &Weights) -> Self;
+    /// What a vertex would carry where the triangle leaves the space before the camera.
+    fn between(vertices: [Self::Vertex; 3], weights: &Weights) -> Self::Vertex;
+}
+
+/// Which shares a varying is mixed by. What it does not want is not computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wants {
+    /// For values that are linear over the screen.
+    pub screen: bool,
+    /// For values that are linear in space.
+    pub space: bool,
+    /// Whether what user planes leave is drawn as a fan, each triangle with values of its own.
+    pub fan: bool,
+}
+
+impl Wants {
+    /// No values.
+    pub const NOTHING: Self = Wants {
+        screen: false,
+        space: false,
+        fan: false,
+    };
+    /// Values that are linear over the screen.
+    pub const SCREEN: Self = Wants {
+        screen: true,
+        space: false,
+        fan: false,
+    };
+    /// Values that are linear in space.
+    pub const SPACE: Self = Wants {
+        screen: false,
+        space: true,
+        fan: false,
+    };
+
+    /// What either wants.
+    ///
+    /// ```
+    /// use fixel::view::Wants;
+    /// assert_eq!(Wants::SCREEN.and(Wants::SPACE), Wants { screen: true, space: true, fan: false });
+    /// ```
+    pub const fn and(self, other: Self) -> Self {
+        Wants {
+            screen: self.screen || other.screen,
+            space: self.space || other.space,
+            fan: self.fan || other.fan,
+        }
+    }
+}
+
+/// How much of each vertex a corner of the polygon is made of, in units of 2^-30.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Weights {
+    /// Linear over the screen: they add up to 1.
+    screen: [i32; 3],
+    /// Linear in space: over w, the largest sum of the polygon between a quarter and 1; where `affine`, they add up to 1.
+    space: [i32; 3],
+    /// The vertex that this corner is, unless a plane made it.
+    vertex: Option<usize>,
+    /// With the same w everywhere, what is linear in space is linear over the screen.
+    affine: bool,
+}
+
+impl Carried for () {
+    type Vertex = ();
+    const WANTS: Wants = Wants::NOTHING;
+    #[inline(always)]
+    fn mix(_: [(); 3], _: &Weights) -> Self {}
+    #[inline(always)]
+    fn between(_: [(); 3], _: &Weights) {}
+}
+
+impl<const N: usize> Carried for Linear<N> {
+    type Vertex = [i32; N];
+    const WANTS: Wants = Wants::SCREEN;
+    #[inline]
+    fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
+        Linear(Self::between(vertices, weights))
+    }
+    #[inline]
+    fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
+        weights.pick(vertices).unwrap_or_else(|| sum(weights.screen, vertices))
+    }
+}
+
+impl<const N: usize> Carried for LinearFan<N> {
+    type Vertex = [i32; N];
+    const WANTS: Wants = Wants {
+        fan: true,
+        ..Wants::SCREEN
+    };
+    #[inline]
+    fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
+        LinearFan(Self::between(vertices, weights))
+    }
+    #[inline]
+    fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
+        Linear::<N>::between(vertices, weights)
+    }
+}
+
+impl<const N: usize> Carried for Perspective<N> {
+    type Vertex = [i32; N];
+    const WANTS: Wants = Wants::SPACE;
+    fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
+        if weights.affine {
+            let values = Self::between(vertices, weights);
+            return Perspective {
+                over_w: values,
+                inverse: 1 << 30,
+                values,
+            };
+        }
+        let over_w = sum(weights.space, vertices);
+        // At most 1 but for the rounding of three: far from overflow.
+        let [a, b, c] = weights.space;
+        let inverse = a.saturating_add(b).saturating_add(c);
+        let values = weights.pick(vertices).unwrap_or_else(|| {
+            over_w.map(|v| {
+                let quotient = ((v as i64) << 30).checked_div(inverse as i64).unwrap_or(0);
+                quotient.clamp(i32::MIN as i64, i32::MAX as i64) as i32
+            })
+        });
+        Perspective {
+            over_w,
+            inverse,
+            values,
+        }
+    }
+    #[inline]
+    fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
+        weights.pick(vertices).unwrap_or_else(|| sum(weights.space, vertices))
+    }
+}
+
+/// Both, side by side.
+impl<A: Carried, B: Carried> Carried for (A, B) {
+    type Vertex = (A::Vertex, B::Vertex);
+    const WANTS: Wants = A::WANTS.and(B::WANTS);
+    #[inline]
+    fn mix(vertices: [Self::Vertex; 3], weights: &Weights) -> Self {
+        let (first, second) = (vertices.map(|v| v.0), vertices.map(|v| v.1));
+        (A::mix(first, weights), B::mix(second, weights))
+    }
+    #[inline]
+    fn between(vertices: [Self::Vertex; 3], weights: &Weights) -> Self::Vertex {
+        let (first, second) = (vertices.map(|v| v.0), vertices.map(|v| v.1));
+        (A::between(first, weights), B::between(second, weights))
+    }
+}
+
+/// Σ share · value, rounded.
+fn sum<const N: usize>(shares: [i32; 3], vertices: [[i32; N]; 3]) -> [i32; N] {
+    let mut sums = [1i64 << 29; N];
+    for (share, values) in shares.into_iter().zip(vertices) {
+        for (sum, v) in sums.iter_mut().zip(values) {
+            *sum += share as i64 * v as i64;
+        }
+    }
+    // Three products of at most 2^30 and 2^31.
+    sums.map(|s| (s >> 30).clamp(i32::MIN as i64, i32::MAX as i64) as i32)
+}
+
+impl Weights {
+    fn pick<V>(&self, [a, b, c]: [V; 3]) -> Option<V> {
+        match self.vertex? {
+            0 => Some(a),
+            1 => Some(b),
+            _ => Some(c),
+        }
+    }
+}
+
+/// How the weights of a polygon's corners become shares, where all that is left of it is before the camera.
+pub(crate) struct Weigh<T> {
+    /// w of the three vertices.
+    vertex_w: [Scaled<T>; 3],
+    wants: Wants,
+    /// See [`Weights`].
+    affine: bool,
+    /// Linear in space: every corner's sum of |weight| over w is at most 2^magnitude, and the largest more than a quarter.
+    magnitude: i32,
+}
+
+impl<T: Word> Weigh<T> {
+    pub(crate) fn new<const N: usize>(
+        polygon: &Polygon<ClipCorner<T>, N>,
+        vertex_w: [Scaled<T>; 3],
+        wants: Wants,
+    ) -> Self {
+        let [a, b, c] = vertex_w;
+        let affine = a == b && b == c;
+        let mut magnitude = i32::MIN;
+        if wants.space && !affine {
+            for corner in polygon.iter() {
+                if let Some(over_w) = corner.weights.over(w_of(corner.position)) {
+                    let absolute = |s: Scaled<T>| if s.mantissas() < [T::ZERO] { s.negated() } else { s };
+                    let [x, y, z] = over_w.split().map(absolute);
+                    magnitude = magnitude.max(x.plus(y).plus(z).exponent().saturating_add(T::BITS as i32));
+                }
+            }
+        }
+        Weigh {
+            vertex_w,
+            wants,
+            affine,
+            magnitude,
+        }
+    }
+
+    pub(crate) fn weights(&self, corner: &ClipCorner<T>) -> Weights {
+        let on_screen = if self.wants.screen || (self.wants.space && self.affine) {
+            over_screen(corner, self.vertex_w)
+        } else {
+            [0; 3]
+        };
+        let space = if self.wants.space && !self.affine {
+            // weight/w of the corner.
+            let over_w = corner.weights.over(w_of(corner.position)).unwrap_or(Block::ZERO);
+            over_w.scaled(self.magnitude.saturating_neg()).split().map(share)
+        } else {
+            on_screen
+        };
+        Weights {
+            screen: on_screen,
+            space,
+            vertex: vertex_of(corner),
+            affine: self.affine,
+        }
+    }
+}
+
+/// The vertex that a corner is.
+fn vertex_of<T: Word>(corner: &ClipCorner<T>) -> Option<usize> {
+    let zero = T::ZERO;
+    match corner.weights.mantissas() {
+        [_, b, c] if b == zero && c == zero => Some(0),
+        [a, _, c] if a == zero && c == zero => Some(1),
+        [a, b, _] if a == zero && b == zero => Some(2),
+        _ => None,
+    }
+}
+
+/// Shares in proportion to weight·w of the vertices, whose sum is the corner's w: linear over the screen.
+fn over_screen<T: Word>(corner: &ClipCorner<T>, [a_w, b_w, _]: [Scaled<T>; 3]) -> [i32; 3] {
+    let [a, b, _] = corner.weights.split();
+    parts_of_one(a.times(a_w), b.times(b_w), w_of(corner.position))
+}
+
+/// Shares of a corner that are linear in clip space, whatever is asked for.
+pub(crate) fn in_clip_space<T: Word>(corner: &ClipCorner<T>) -> Weights {
+    let [a, b, _] = corner.weights.split();
+    let shares = parts_of_one(a, b, whole(corner.weights));
+    Weights {
+        screen: shares,
+        space: shares,
+        vertex: vertex_of(corner),
+        affine: true,
+    }
+}
+
+/// Shares of a corner that the near plane made (formats: `.iv`, clipping). Linear in clip space is linear in space; over
+/// the screen only where all vertices of the corner have a place there.
+pub(super) fn at_cut<T: Word>(corner: &ClipCorner<T>, vertex_w: [Scaled<T>; 3]) -> Weights {
+    let Weights { space, .. } = in_clip_space(corner);
+    let mut parts = corner.weights.split().into_iter().zip(vertex_w);
+    let on_screen = parts.all(|(part, w)| part.is_zero() || in_front(w));
+    Weights {
+        screen: if on_screen {
+            over_screen(corner, vertex_w)
+        } else {
+            space
+        },
+        space,
+        vertex: vertex_of(corner),
+        affine: true,
+    }
+}
+
+/// What the weights add up to.
+pub(super) fn whole<T: Word>(weights: Block<T, 3>) -> Scaled<T> {
+    let [a, b, c] = weights.split();
+    a.plus(b).plus(c)
+}
+
+/// a/whole, b/whole and what they leave of 1, each at most 1 either way.
+fn parts_of_one<T: Word>(a: Scaled<T>, b: Scaled<T>, whole: Scaled<T>) -> [i32; 3] {
+    let [a, b] = [a, b].map(|part| part.over(whole).map_or(0, share));
+    [
+        a,
+        b,
+        ((1i64 << 30) - a as i64 - b as i64).clamp(-1 << 30, 1 << 30) as i32,
+    ]
+}
+
+/// In units of 2^-30, within ±1.
+fn share<T: Word>(part: Scaled<T>) -> i32 {
+    part.to_fixed(30).clamp(-1 << 30, 1 << 30) as i32
+}

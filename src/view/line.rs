@@ -1,0 +1,69 @@
+//! Lines through a view.
+
+use crate::num::Word;
+use crate::screen::{Shape, end};
+use crate::span::Corners;
+use crate::varying::Varying;
+
+use super::{Carried, ProjectedCorner, Vertex, View, in_clip_space, w_of};
+use crate::clip::Polygon;
+
+/// The two ends of a line on the screen and what they carry.
+#[derive(Debug)]
+pub struct ProjectedLine<V>([ProjectedCorner<V>; 2]);
+
+impl<V> Corners for ProjectedLine<V> {
+    #[inline]
+    fn count(&self) -> usize {
+        2
+    }
+    #[inline]
+    fn position(&self, index: usize) -> (i32, i32) {
+        end(&self.0, index).position
+    }
+}
+
+impl<V: Varying> Shape for ProjectedLine<V> {
+    type Varying = V;
+    #[inline]
+    fn depth(&self, index: usize) -> i32 {
+        end(&self.0, index).depth
+    }
+    #[inline]
+    fn varying(&self, index: usize) -> V {
+        end(&self.0, index).varying
+    }
+}
+
+impl<T: Word, W: Word, const N: usize> View<T, W, N> {
+    /// What is left of a line on the screen, clipped, projected and snapped; `None` for nothing. Lines are never culled.
+    ///
+    /// An end keeps its place unless it is cut off. Where the ends left by user planes have w of both signs and are
+    /// [divided by](crate::clip::Behind::Divide), the line is the one between the two projected ends, not the one through
+    /// infinity.
+    ///
+    /// **Error**: a cut end is snapped like any other, so that a line cut at the guard band lights another pixel than the
+    /// true line only where that passes within 2^-7 px of the border between the two. To this a position far from the
+    /// viewport adds its own rounding: G²/h·2^(1−BITS) px for a guard band of G px and a viewport 2·h px wide or high, which
+    /// is 0.001 px for words of 32 bits, ±4096 px and h = 32 (`tests/line_views.rs`).
+    ///
+    /// The example is [`draw::primitive_segment`](crate::draw::primitive_segment)'s.
+    pub fn project_line<V: Carried>(&self, ends: &[Vertex<T, V::Vertex>; 2]) -> Option<ProjectedLine<V>> {
+        let mut line = self.planes.clip(ends.each_ref().map(|v| v.position))?;
+        for corner in line.iter_mut() {
+            corner.position = self.projection.transform(corner.position);
+        }
+        // A triangle whose third vertex has no weight: it may be the second once more.
+        let [a, b] = ends;
+        let mut vertex_w = [a, b, b].map(|v| w_of::<T>(self.projection.transform(v.position)));
+        let mut carried = [a, b, b].map(|v| v.carried);
+        if V::WANTS.fan && !self.planes.is_empty() {
+            let (a, b) = (*line.get(0)?, *line.get(1)?);
+            carried = [&a, &b, &b].map(|corner| V::between(carried, &in_clip_space(corner)));
+            vertex_w = [&a, &b, &b].map(|corner| w_of(corner.position));
+            line = Polygon::of_vertices([a.position, b.position]);
+        }
+        let corners = self.place::<V>(line, vertex_w, carried)?;
+        Some(ProjectedLine([*corners.get(0)?, *corners.get(1)?]))
+    }
+}
