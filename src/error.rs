@@ -22,6 +22,12 @@ pub enum Error {
     EmptyTexture,
     /// A patch's subdivision level outside 1…8.
     SubdivisionLevel,
+    /// A supersampling level outside 1…16.
+    SupersamplingLevel,
+    /// A mesh refers to a vertex that it does not have.
+    MeshIndex,
+    /// Faces of a mesh with fewer than three corners, without their end, or of another shape than its attributes'.
+    MeshShape,
 }
 
 impl fmt::Display for Error {
@@ -35,6 +41,9 @@ impl fmt::Display for Error {
             Error::TooLarge => "the picture reaches beyond the guard band",
             Error::EmptyTexture => "a texture without width or height",
             Error::SubdivisionLevel => "a subdivision level outside 1 to 8",
+            Error::SupersamplingLevel => "a supersampling level outside 1 to 16",
+            Error::MeshIndex => "a mesh refers to a vertex that it does not have",
+            Error::MeshShape => "faces that are incomplete or differ between attributes",
         })
     }
 }

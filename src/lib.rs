@@ -14,7 +14,7 @@
 //! same ones. All positions are those of the whole picture, so that a picture drawn strip by strip has the same bits as one
 //! drawn whole, and a microcontroller draws the same bits as the desktop.
 //!
-//! # Two doors
+//! # Three doors
 //!
 //! **Raster**: corners on the screen, for those who do their own 3D or draw in 2D.
 //!
@@ -39,13 +39,21 @@
 //!
 //! **View**: vertices in eye space, clipped, projected and drawn by [`draw::primitive`]; see [`view::View`].
 //!
-//! For fragment programs there are [`texture`]s and [`light`]s, for curved surfaces Bézier [`patch`]es.
+//! **Pipeline**: your own vertex and fragment programs, several colour buffers, discard, blending, samplers; see
+//! [`pipeline`], and `docs/toon-shader.md` step by step.
+//!
+//! Beside triangles both doors take [lines between subpixel ends](segment), plain and antialiased, [`square`]s (points,
+//! billboards) and [`disc`]s; the raster door also [lines between pixels](mod@line).
+//!
+//! For fragment programs there are [`texture`]s, [`light`]s and [`blend`]ing, for curved surfaces Bézier [`patch`]es, and for
+//! models in flash indexed [`mesh`]es with a cache of transformed vertices. What has been drawn can be
+//! [averaged](supersample) and [encoded as sRGB](srgb).
 //!
 //! # What a draw pays for
 //!
 //! Everything is chosen by type: [`NoDepth`](depth::NoDepth) or a depth buffer and its comparison, varyings
-//! [none](varying), [linear](varying::Linear) or [in perspective](varying::Perspective), the fragment program, the pixel,
-//! the word size. What is not chosen is not compiled in.
+//! [none](varying), [linear](varying::Linear), [in perspective](varying::Perspective) or pairs of these, the fragment
+//! program, the pixel, the word size. What is not chosen is not compiled in.
 //!
 //! # Numbers
 //!
@@ -54,9 +62,13 @@
 //! | matrices, points before the screen | [block floating point](num::Block) of 32- or 64-bit words | 2^-30 or 2^-62 of the largest entry per operation |
 //! | screen positions | 1/256 px, ±4096 px ([`screen::SubPx`]) | rounded once, at most 1/512 px |
 //! | coverage | exact integers ([`edge`](mod@edge)) | 0 |
+//! | weights of antialiased lines | 2^-28 ([`segment::Pairs`]) | 1.25 units |
 //! | depth | 16 bits, linear over the screen ([`screen::FineDepth`]) | one step |
 //! | linear varyings | the user's units in an `i32` ([`gradient`]) | a unit per pixel along a span, never outside the corners' range |
 //! | varyings in perspective | as linear ones, divided per pixel | see [`varying::Perspective`] |
+//! | colours with alpha | 2^-28, straight, ±8 times full ([`blend::Rgba`]) | half a unit + 2^-29 of the two colours' distance |
+//! | sRGB | 2^-16 level ([`srgb`]) | 0.0002 level |
+//! | light | 2^-28 of full at [points](light::world), 2^-16 in [HW2](mod@light) | stated there, far below a level of 255 |
 //!
 //! # Features
 //!
@@ -64,8 +76,10 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod blend;
 pub mod clip;
 pub mod depth;
+pub mod disc;
 pub mod draw;
 pub mod edge;
 #[cfg(feature = "embedded-graphics")]
@@ -76,10 +90,16 @@ pub mod gradient;
 pub mod light;
 pub mod line;
 pub mod matrix;
+pub mod mesh;
 pub mod num;
 pub mod patch;
+pub mod pipeline;
 pub mod screen;
+pub mod segment;
 pub mod span;
+pub mod square;
+pub mod srgb;
+pub mod supersample;
 pub mod target;
 pub mod texture;
 pub mod varying;

@@ -1,9 +1,10 @@
-//! The errors of roots, unit vectors and powers, measured over their whole ranges; `docs/functions.md` is the result.
+//! The errors of roots, unit vectors, powers and sRGB, measured over their whole ranges; `docs/functions.md` is the result.
 //!
 //! `cargo test --test functions -- --nocapture` prints it. A test fails when a row of the page is stale, when the error
 //! passes the bound, and when the bound is looser than four times the error.
 
 use fixel::num::{power, reciprocal_square_root, square_root, unit, unit_wide};
+use fixel::srgb::{decode, decode_wide, encode};
 
 const PAGE: &str = include_str!("../docs/functions.md");
 
@@ -207,4 +208,78 @@ fn power_at_the_ends() {
         assert_eq!(power(base, 0), one);
         assert!((power(base, 1 << 16) - base).abs() <= 1);
     }
+}
+
+fn decode64(c: f64) -> f64 {
+    if c <= 0.04045 {
+        c / 12.92
+    } else {
+        ((c + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+fn encode64(c: f64) -> f64 {
+    if c <= 0.003_130_8 {
+        12.92 * c
+    } else {
+        1.055 * c.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+/// All 256 levels, in units of 2^-28.
+#[test]
+fn srgb_decode_error_is_documented() {
+    let error = |level: u8| decode64(f64::from(level) / 255.0) * f64::from(1 << 28) - f64::from(decode(level));
+    document(
+        "`srgb::decode`",
+        (0..=255).map(|level| error(level).abs()).fold(0.0, f64::max),
+    );
+}
+
+/// Each 1,009th argument, and the 2^20 on either side of 0.04045, of 1 and before the last. Up to full the error is in
+/// units of 2^-28; beyond, where it is relative, what is more than the ½ of rounding.
+#[test]
+fn srgb_decode_wide_error_is_documented() {
+    let one = 1 << 24;
+    let mut worst = [0.0f64; 2];
+    let around = |middle: i32| middle - (1 << 20)..=middle.saturating_add(1 << 20);
+    let all = (i32::MIN..=i32::MAX).step_by(1009);
+    for encoded in all.chain(around(678_638)).chain(around(one)).chain(around(i32::MAX)) {
+        let exact = decode64(f64::from(encoded) / f64::from(one)) * f64::from(1 << 28);
+        let error = (decode_wide(encoded) as f64 - exact).abs();
+        if encoded <= one {
+            worst[0] = worst[0].max(error);
+            assert!(error <= 0.5 + exact.abs() * 2f64.powi(-28), "{encoded}: {error}");
+        } else {
+            worst[1] = worst[1].max((error - 0.5) / exact * f64::from(1 << 28));
+        }
+    }
+    document("`srgb::decode_wide`, c ≤ 1", worst[0]);
+    document("`srgb::decode_wide`, c > 1", worst[1]);
+}
+
+/// How much too large in units of 2^-16 level; never too little.
+fn encode_error(linear: i32) -> f64 {
+    let exact = 255.0 * encode64(f64::from(linear) / f64::from(1 << 28)) * 65536.0;
+    let error = f64::from(encode(linear)) - exact;
+    // The oracle is off by 2^-50 of 2^24.
+    assert!(error >= -2f64.powi(-26), "{linear}: {error}");
+    error
+}
+
+/// Every value below 2^21 and each 17th above.
+#[test]
+fn srgb_encode_error_is_documented() {
+    let one = 1 << 28;
+    let all = (0..1 << 21).chain((1 << 21..one).step_by(17)).chain([one]);
+    document("`srgb::encode`", all.map(encode_error).fold(0.0, f64::max));
+}
+
+/// `cargo test --release --test functions -- --ignored --nocapture`
+#[test]
+#[ignore = "2^28 values"]
+fn srgb_encode_of_every_value() {
+    let worst = (0..=1 << 28).map(encode_error).fold(0.0, f64::max);
+    println!("{worst:.4} x 2^-16 level");
+    assert!(worst <= 12.0);
 }

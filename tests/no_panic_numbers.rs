@@ -1,11 +1,16 @@
 //! Numbers, matrices, viewports and angles: no input whatsoever panics or overflows (`no_panic.rs` draws). What comes
 //! out is only asked to be well formed: mantissas within the word's bits, normalised.
 
+use fixel::blend::{ONE, Rgba, over565, over888};
 use fixel::clip::{DepthRange, Planes};
 use fixel::edge::Edge;
 use fixel::matrix::{Directions, Matrix};
+use fixel::mesh::Normalized;
 use fixel::num::{Angle, Block, Scaled, SineTable, Trigonometry, Word, reciprocal};
 use fixel::span::scan;
+use fixel::srgb::{decode, decode_wide, encode};
+use fixel::supersample::Level;
+use fixel::texture::Texel;
 use fixel::viewport::Viewport;
 use fixel::window::Window;
 use proptest::prelude::*;
@@ -32,6 +37,11 @@ fn wide_long() -> impl Strategy<Value = i128> {
         Just(i128::MIN),
         Just(1 << 124)
     ]
+}
+
+fn rgba() -> impl Strategy<Value = Rgba> + Clone {
+    let alpha = prop_oneof![int(), 0..=ONE, prop::sample::select(&[ONE - 1, ONE, ONE + 1][..])];
+    (prop::array::uniform3(int()), alpha).prop_map(|(color, alpha)| Rgba { color, alpha })
 }
 
 fn exponent() -> impl Strategy<Value = i32> + Clone {
@@ -94,6 +104,8 @@ fn matrices<T: Word>(n: &[(T, i32)], angle: u64) {
     all.extend(Matrix::rotation::<SineTable>(angle, vector(0)));
     #[cfg(feature = "micromath")]
     all.extend(Matrix::rotation::<fixel::num::Micromath>(angle, vector(0)));
+    all.extend(Matrix::camera::<SineTable>(vector(6), vector(3), angle));
+    all.extend(Matrix::camera::<SineTable>(vector(6), Block::ZERO, Angle::default()));
     all.extend(Matrix::look_at(vector(0), vector(3), vector(6)));
     all.extend(Matrix::frustum(std::array::from_fn(scalar)));
     all.extend(Matrix::ortho(std::array::from_fn(scalar)));
@@ -138,6 +150,12 @@ fn viewports<W: Word, T: Word>([left, top]: [i32; 2], size: [u16; 2], n: &[(T, i
             }
         }
     }
+}
+
+/// Positions of a mesh, of any size.
+fn mesh_points<T: Word>(n: [i32; 3]) {
+    well_formed(n.point::<T>());
+    well_formed(n.map(|c| c as i16).point::<T>());
 }
 
 /// The whole guard band of each word, in any window.
@@ -198,6 +216,8 @@ proptest! {
     fn any_spans(
         corners in prop::array::uniform3((int(), int())), left in int(), right in int(), top in int(), bottom in int(),
     ) {
+        mesh_points::<i32>([left, top, right]);
+        mesh_points::<i64>([left, top, right]);
         let window = Window::new(left, top, right, bottom);
         spans::<i32>(corners, window);
         spans::<i64>(corners, window);
@@ -206,7 +226,37 @@ proptest! {
 
     #[test]
     fn any_angle_and_divisor(degrees in int(), turns in any::<u64>(), divisor in any::<u32>()) {
-        let _ = (Angle::from_degrees(degrees), reciprocal(divisor));
+        let _ = (Angle::from_degrees(degrees), Angle::from_radians(turns as i64), reciprocal(divisor));
         let (_, _) = (SineTable::sin_cos::<i32>(Angle::from_turns(turns)), SineTable::sin_cos::<i64>(Angle::from_turns(turns)));
+    }
+
+    #[test]
+    fn any_blending(top in rgba(), below in rgba(), part in int(), texel in any::<[u8; 4]>(), bits in any::<u32>()) {
+        let whole = 0..=ONE;
+        let word = bits as u16;
+        let _ = (over565(top, word), over888(top, [word as u8; 3]));
+        for shift in [0, 4, 30, bits % 64, bits] {
+            let texel = Rgba::from_texel(Texel(texel), shift);
+            for result in [top.over(below), below.over(top), texel.over(top), top.over(texel), top.faded(part)] {
+                assert!(whole.contains(&result.alpha));
+            }
+        }
+        let _ = decode(word as u8);
+        for v in top.color {
+            let linear = decode_wide(v);
+            assert!(encode(v) <= 255 << 16 && (-(1i64 << 36)..1 << 46).contains(&linear));
+        }
+    }
+
+    #[test]
+    fn any_samples(
+        n in 1..=16u32, samples in prop::collection::vec(rgba(), 0..600),
+        stride in prop_oneof![0..40usize, any::<usize>()], words in prop::collection::vec(any::<u16>(), 0..600),
+    ) {
+        let level = Level::new(n).unwrap();
+        level.resolve(&samples, stride, |x, pixel| {
+            assert!((x + 1) * n as usize <= stride && (0..=ONE).contains(&pixel.alpha));
+        });
+        level.resolve565(&words, stride, |x, _| assert!((x + 1) * n as usize <= stride));
     }
 }

@@ -1,0 +1,312 @@
+//! From clip space to the screen: clip planes, culling, the guard band, the division.
+
+use crate::clip::{Behind, ClipCorner, DepthRange, Polygon, cut, to_view};
+use crate::num::{Block, Scaled, Wide, Word};
+use crate::screen::Shape;
+use crate::span::{Corners, doubled_area};
+use crate::varying::Varying;
+use crate::view::{Carried, Weigh, in_clip_space, w_of};
+use crate::viewport::Viewport;
+
+use super::state::{Culling, State};
+
+/// Depth beyond this is beyond the far end of the range.
+pub(super) const FULL_DEPTH: i64 = 65535 << 15;
+
+/// What is interpolated besides the varyings.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted {
+    pub(super) depth: bool,
+    /// Something can pass the depth test beyond the far end of the range.
+    pub(super) beyond: bool,
+    pub(super) inverse_w: bool,
+}
+
+/// A corner on the screen.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner<V> {
+    position: (i32, i32),
+    depth: i32,
+    /// 1/w in units of 2^`exponent` of the piece.
+    inverse: i32,
+    varying: V,
+}
+
+/// A polygon or a line on the screen.
+#[derive(Debug)]
+pub(super) struct Piece<V, const N: usize> {
+    corners: Polygon<Corner<V>, N>,
+    first: Corner<V>,
+    /// Of 1/w.
+    pub(super) exponent: i32,
+    /// Depths are in units of 2^(`depth_shift` − 15) step.
+    pub(super) depth_shift: u32,
+}
+
+impl<V: Copy, const N: usize> Piece<V, N> {
+    #[inline]
+    fn corner(&self, index: usize) -> &Corner<V> {
+        self.corners.get(index).unwrap_or(&self.first)
+    }
+
+    #[inline]
+    pub(super) fn inverse(&self, index: usize) -> i32 {
+        self.corner(index).inverse
+    }
+}
+
+impl<V: Copy, const N: usize> Corners for Piece<V, N> {
+    #[inline]
+    fn count(&self) -> usize {
+        self.corners.len()
+    }
+    #[inline]
+    fn position(&self, index: usize) -> (i32, i32) {
+        self.corner(index).position
+    }
+}
+
+impl<V: Varying, const N: usize> Shape for Piece<V, N> {
+    type Varying = V;
+    #[inline]
+    fn depth(&self, index: usize) -> i32 {
+        self.corner(index).depth
+    }
+    #[inline]
+    fn varying(&self, index: usize) -> V {
+        self.corner(index).varying
+    }
+}
+
+/// What vertices carry, and their w.
+struct Given<T, A> {
+    w: [Scaled<T>; 3],
+    values: [A; 3],
+}
+
+/// Calls `draw` with what is left of a triangle on the screen.
+pub(super) fn triangle<I, T, W, V, const N: usize>(
+    state: &State<I, T, W, N>,
+    wanted: Wanted,
+    positions: [Block<T, 4>; 3],
+    values: [V::Vertex; 3],
+    mut draw: impl FnMut(&Piece<V, N>),
+) where
+    T: Word,
+    W: Word,
+    V: Carried,
+{
+    let Some(clipped) = state.planes.clip(positions) else {
+        return;
+    };
+    if state.culling != Culling::Off && !state.culling.keeps(is_front(&clipped, &state.viewport)) {
+        return;
+    }
+    let vertices = Given {
+        w: positions.map(w_of),
+        values,
+    };
+    let is_whole = || clipped.len() == 3 && clipped.iter().zip(&positions).all(|(corner, p)| corner.position == *p);
+    if V::WANTS.fan && !is_whole() {
+        // Values are linear in clip space up to here, and over the screen from here on: the fan, each part as if given.
+        for i in 2..clipped.len() {
+            let (Some(a), Some(b), Some(c)) = (clipped.get(0), clipped.get(i - 1), clipped.get(i)) else {
+                return;
+            };
+            let corners = [a, b, c];
+            let vertices = Given {
+                values: corners.map(|corner| V::between(vertices.values, &in_clip_space(corner))),
+                w: corners.map(|corner| w_of(corner.position)),
+            };
+            let part = Polygon::of_vertices(corners.map(|corner| corner.position));
+            in_range(part, &vertices, &state.viewport, wanted, &mut draw);
+        }
+    } else {
+        in_range(clipped, &vertices, &state.viewport, wanted, &mut draw);
+    }
+}
+
+/// What is left of a line on the screen. Lines are never culled.
+pub(super) fn line<I, T, W, V, const N: usize>(
+    state: &State<I, T, W, N>,
+    wanted: Wanted,
+    positions: [Block<T, 4>; 2],
+    [a, b]: [V::Vertex; 2],
+) -> Option<Piece<V, N>>
+where
+    T: Word,
+    W: Word,
+    V: Carried,
+{
+    let mut line = state.planes.clip(positions)?;
+    let [from, to] = positions;
+    // A triangle whose third vertex has no weight: it may be the second once more.
+    let mut vertices = Given {
+        w: [from, to, to].map(w_of),
+        values: [a, b, b],
+    };
+    if V::WANTS.fan {
+        let (a, b) = (*line.get(0)?, *line.get(1)?);
+        let corners = [&a, &b, &b];
+        vertices = Given {
+            values: corners.map(|corner| V::between(vertices.values, &in_clip_space(corner))),
+            w: corners.map(|corner| w_of(corner.position)),
+        };
+        line = Polygon::of_vertices([a.position, b.position]);
+    }
+    let line = to_view(line, &state.viewport, DepthRange::Unlimited, Behind::Cut)?;
+    let shift = if wanted.depth && beyond_range(&line) {
+        // The whole line keeps its pixels: a unit of 2^-7 step reaches 128 depth ranges far.
+        8
+    } else {
+        0
+    };
+    place(&line, &vertices, &state.viewport, wanted, shift)
+}
+
+/// Which way the corners of a clipped polygon run on the screen.
+#[inline(never)]
+fn is_front<T: Word, W: Word, const N: usize>(clipped: &Polygon<ClipCorner<T>, N>, viewport: &Viewport<W>) -> bool {
+    let Some(polygon) = to_view(clipped.clone(), viewport, DepthRange::Unlimited, Behind::Cut) else {
+        return false;
+    };
+    let nothing = Given {
+        w: [Scaled::ZERO; 3],
+        values: [(); 3],
+    };
+    let wanted = Wanted {
+        depth: false,
+        beyond: false,
+        inverse_w: false,
+    };
+    let Some(piece) = place::<T, W, (), N>(&polygon, &nothing, viewport, wanted, 0) else {
+        return false;
+    };
+    // Positive is counter-clockwise with rows downwards, as seen where y is up.
+    let area = doubled_area(&piece);
+    if viewport.is_y_up() { area > 0 } else { area < 0 }
+}
+
+fn beyond_range<T: Word, const N: usize>(polygon: &Polygon<ClipCorner<T>, N>) -> bool {
+    polygon.iter().any(|corner| {
+        let [_, _, z, w] = corner.position.mantissas().map(T::widen);
+        z > w || z + w < T::Wide::ZERO
+    })
+}
+
+/// Calls `draw` with a convex part of the polygon, or where depth leaves its range, with up to three: before it, at depth
+/// 0, in it, and beyond it, at its end. They share their edges exactly.
+fn in_range<T, W, V, const N: usize>(
+    polygon: Polygon<ClipCorner<T>, N>,
+    vertices: &Given<T, V::Vertex>,
+    viewport: &Viewport<W>,
+    wanted: Wanted,
+    draw: &mut impl FnMut(&Piece<V, N>),
+) where
+    T: Word,
+    W: Word,
+    V: Carried,
+{
+    let Some(polygon) = to_view(polygon, viewport, DepthRange::Unlimited, Behind::Cut) else {
+        return;
+    };
+    let mut emit = |polygon: &Polygon<ClipCorner<T>, N>| {
+        if let Some(piece) = place(polygon, vertices, viewport, wanted, 0) {
+            draw(&piece);
+        }
+    };
+    if !wanted.depth || !beyond_range(&polygon) {
+        emit(&polygon);
+        return;
+    }
+    let near = |sign: bool| {
+        move |[_, _, z, w]: [T; 4]| {
+            let distance = z.widen() + w.widen();
+            if sign { distance } else { -distance }
+        }
+    };
+    let far = |sign: bool| {
+        move |[_, _, z, w]: [T; 4]| {
+            let distance = w.widen() - z.widen();
+            if sign { distance } else { -distance }
+        }
+    };
+    let mut before = polygon.clone();
+    cut(&mut before, near(false));
+    emit(&before);
+    let mut within = polygon.clone();
+    cut(&mut within, near(true));
+    cut(&mut within, far(true));
+    emit(&within);
+    if wanted.beyond {
+        let mut beyond = polygon;
+        cut(&mut beyond, far(false));
+        emit(&beyond);
+    }
+}
+
+/// The corners on the screen.
+fn place<T, W, V, const N: usize>(
+    polygon: &Polygon<ClipCorner<T>, N>,
+    vertices: &Given<T, V::Vertex>,
+    viewport: &Viewport<W>,
+    wanted: Wanted,
+    depth_shift: u32,
+) -> Option<Piece<V, N>>
+where
+    T: Word,
+    W: Word,
+    V: Carried,
+{
+    let weigh = Weigh::new(polygon, vertices.w, V::WANTS);
+    let inverses = || polygon.iter().map(inverse_w);
+    let mut exponent = 0;
+    if wanted.inverse_w {
+        let magnitude = |s: Scaled<T>| s.exponent().saturating_add(T::BITS as i32);
+        exponent = inverses().map(magnitude).fold(i32::MIN, i32::max).saturating_sub(30);
+    }
+    let range = if wanted.depth {
+        DepthRange::MinusOneToOne
+    } else {
+        DepthRange::Unlimited
+    };
+    let corner = |corner: &ClipCorner<T>| {
+        let (x, y, mut depth) = viewport.place(corner.position, range)?;
+        if depth_shift > 0 {
+            depth = coarse_depth(corner.position, depth_shift);
+        }
+        let inverse = if wanted.inverse_w {
+            inverse_w(corner).scaled(exponent.saturating_neg()).to_fixed(0)
+        } else {
+            0
+        };
+        Some(Corner {
+            position: (x, y),
+            depth,
+            inverse: inverse.clamp(0, 1 << 30) as i32,
+            varying: V::mix(vertices.values, &weigh.weights(corner)),
+        })
+    };
+    let corners: Polygon<_, N> = polygon.iter().filter_map(corner).collect();
+    Some(Piece {
+        first: *corners.get(0)?,
+        corners,
+        exponent,
+        depth_shift,
+    })
+}
+
+/// 1/w as that of a vertex would be: homogeneous points have any scale, their weights tell which.
+fn inverse_w<T: Word>(corner: &ClipCorner<T>) -> Scaled<T> {
+    let [a, b, c] = corner.weights.split();
+    let whole = a.plus(b).plus(c);
+    whole.over(w_of(corner.position)).unwrap_or(Scaled::ZERO)
+}
+
+/// Window depth in units of 2^(shift − 15) step, in the range or not; |depth| ≤ 2^30.
+fn coarse_depth<T: Word>(position: Block<T, 4>, shift: u32) -> i32 {
+    let [_, _, z, w] = position.mantissas().map(T::widen);
+    let depth = (z + w).times_small((FULL_DEPTH >> shift) as i32).div_floor(w + w);
+    let most = T::from_i32(1 << 30).widen();
+    depth.max(-most).min(most).narrow().low_i32()
+}
