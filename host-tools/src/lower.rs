@@ -21,6 +21,16 @@ fn scaled(value: f64) -> Scaled<i64> {
     Scaled::new([mantissa], exponent.max(1) - 1075)
 }
 
+/// A number within ±1 in units of 2^-15, to 2^-16 of [`whole`].
+pub fn sixteen_bits(value: f64) -> i16 {
+    (value * 32767.0).round() as i16
+}
+
+/// What 2^15 of [`sixteen_bits`]' units stand for if 32767 of them stand for `size`: −1 and 1 are as good as any between.
+pub fn whole(size: f64) -> f64 {
+    size * (32768.0 / 32767.0)
+}
+
 /// Degrees as a fraction of a turn, rounded down to 2^-64 turn.
 pub fn angle(degrees: f64) -> Angle {
     // The remainder is exact, and below 360 it has 44 or more bits after the point.
@@ -32,6 +42,36 @@ pub fn angle(degrees: f64) -> Angle {
     let down = (1075 - exponent.max(1)) as u32;
     let turns = ((u128::from(mantissa) << 64) / 360).checked_shr(down).unwrap_or(0);
     Angle::from_turns(turns as u64)
+}
+
+/// Radians as a fraction of a turn, rounded down to 2^-64 turn or, for large ones, to 2^-75 of themselves.
+///
+/// # Errors
+/// From 2^60 radians on, where float64 has no angle left to speak of.
+pub fn radians(radians: f64) -> Result<Angle, String> {
+    if radians.abs() >= f64::from(60).exp2() {
+        return Err(format!("a rotation by {radians} radians"));
+    }
+    // 1/2π in units of 2^-128.
+    const INVERSE: u128 = 0x28be_60db_9391_054a_7f09_d5f4_7d4d_3770;
+    let bits = radians.abs().to_bits();
+    let exponent = (bits >> 52) as i32;
+    let mantissa = u128::from((bits & ((1 << 52) - 1)) | if exponent == 0 { 0 } else { 1 << 52 });
+    // mantissa · 2^(up) radians; turns in units of 2^-64 are mantissa · INVERSE · 2^(up − 64), of which only the last 64 bits count.
+    let up = exponent.max(1) - 1075;
+    let (high, low) = (mantissa * (INVERSE >> 64), mantissa * (INVERSE & u128::from(u64::MAX)));
+    let whole = high + (low >> 64);
+    let turns = if up <= 0 {
+        whole.checked_shr(up.unsigned_abs()).unwrap_or(0)
+    } else {
+        (whole << up) | (u128::from(low as u64) >> (64 - up))
+    };
+    let turns = turns as u64;
+    Ok(Angle::from_turns(if radians < 0.0 {
+        turns.wrapping_neg()
+    } else {
+        turns
+    }))
 }
 
 /// Colours of a primitive's corners: channels in units of 2^(shift − 16) levels.
@@ -107,6 +147,22 @@ mod tests {
         assert_eq!(angle(720.0 + 180.0), Angle::from_degrees(180));
         assert_eq!(angle(-1e-300), Angle::from_degrees(0));
         assert_eq!(angle(1e300), angle(1e300 % 360.0));
+    }
+
+    #[test]
+    fn radians_are_turns() {
+        let near = |r: f64, turns: f64| {
+            let wanted = angle(360.0 * turns);
+            let off = radians(r).unwrap().turns().wrapping_sub(wanted.turns()) as i64;
+            // Of 2^64: the last place of 100π is 2^-46.
+            assert!(off.unsigned_abs() < 1 << 18, "{r}");
+        };
+        near(std::f64::consts::FRAC_PI_2, 0.25);
+        near(-std::f64::consts::FRAC_PI_4, 0.875);
+        near(0.6, 0.6 / std::f64::consts::TAU);
+        near(1e-300, 0.0);
+        near(100.0 * std::f64::consts::PI, 0.0);
+        assert!(radians(1e300).is_err());
     }
 
     #[test]

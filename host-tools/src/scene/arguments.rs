@@ -61,12 +61,7 @@ impl<'a> Arguments<'a> {
     /// The next argument as a finite decimal number.
     pub fn number(&mut self) -> Result<f64, Fault> {
         let token = self.word()?;
-        // Rust's own parser takes the grammar's numbers and besides `inf`, `infinity` and `nan`.
-        let decimal = |byte: u8| matches!(byte, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E');
-        let value = match token.text.parse::<f64>() {
-            Ok(value) if token.text.bytes().all(decimal) => value,
-            _ => return Err(fault(token, "expected a number")),
-        };
+        let value = decimal(token.text).ok_or_else(|| fault(token, "expected a number"))?;
         if value.is_finite() {
             Ok(value)
         } else {
@@ -134,6 +129,13 @@ impl<'a> Arguments<'a> {
         let token = self.word()?;
         names::inside(token.text).map_err(|message| fault(token, message))
     }
+}
+
+/// A decimal number, with a point and an exponent if it likes; infinite if it is too large.
+pub fn decimal(text: &str) -> Option<f64> {
+    // Rust's own parser takes the grammar's numbers and besides `inf`, `infinity` and `nan`.
+    let allowed = |byte: u8| matches!(byte, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E');
+    text.bytes().all(allowed).then(|| text.parse().ok()).flatten()
 }
 
 /// An integer of any size; one beyond 64 bits is cut to the largest, which every range refuses just the same.

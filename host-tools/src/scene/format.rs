@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use super::{Place, lex};
+use super::lex;
 
 /// A scene format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -86,35 +86,36 @@ const SHARED: [&str; 9] = [
     "frustum",
 ];
 
-/// Tells the format from the file's ending and its text, and where it shows. The first line that only one format
-/// could have decides; a text without one is HW2.
-pub fn detect(file: &Path, text: &[u8]) -> (Format, Place) {
-    let start = Place { line: 1, column: 1 };
-    let ending = file.extension().and_then(|ending| ending.to_str());
-    if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
-        return (Format::Obj, start);
+/// Tells the format from the file's ending and its text. The first line that only one format could have decides; a text
+/// without one is HW2, or Inventor if its file's ending says so and no word of HW2 is in it.
+pub fn detect(file: &Path, text: &[u8]) -> Format {
+    let ends_in = |what: &str| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(what));
+    if ends_in("obj") {
+        return Format::Obj;
     }
+    let mut otherwise = if ends_in("iv") { Format::Iv } else { Format::Hw2 };
     let unmarked = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
     if unmarked.starts_with(b"#Inventor") {
-        return (Format::Iv, start);
+        return Format::Iv;
     }
     for line in lex::lines(text) {
         // A text that is not UTF-8 gets its fault from a parser.
         let Ok(line) = line else { break };
         let word = line.keyword.text;
         if ONLY_HW2.contains(&word) {
-            return (Format::Hw2, line.keyword.place);
+            return Format::Hw2;
         }
         if ONLY_MP1.contains(&word) {
-            return (Format::Mp1, line.keyword.place);
+            return Format::Mp1;
         }
         let mut words = std::iter::once(line.keyword).chain(line.arguments);
-        let brace = words.find(|token| token.text.contains('{'));
-        if let Some(token) = brace.filter(|_| !SHARED.contains(&word)) {
-            return (Format::Iv, token.place);
+        if SHARED.contains(&word) {
+            otherwise = Format::Hw2;
+        } else if words.any(|token| token.text.contains('{')) {
+            return Format::Iv;
         }
     }
-    (Format::Hw2, start)
+    otherwise
 }
 
 #[cfg(test)]
@@ -122,7 +123,7 @@ mod tests {
     use super::*;
 
     fn told(file: &str, text: &str) -> Format {
-        detect(Path::new(file), text.as_bytes()).0
+        detect(Path::new(file), text.as_bytes())
     }
 
     #[test]
@@ -139,18 +140,28 @@ mod tests {
         assert_eq!(told("a.txt", "#Inventor V2.0 ascii\n"), Format::Iv);
         assert_eq!(told("a.txt", "# a\nSeparator{\n"), Format::Iv);
         assert_eq!(told("a.txt", "Separator\n{\n"), Format::Iv);
+        assert_eq!(told("a.iv", "# nothing\n"), Format::Iv);
+        assert_eq!(told("a.iv", "Separator\n"), Format::Iv);
+        assert_eq!(told("a.iv", "png 1 1 a\n# nothing\n"), Format::Hw2);
+        assert_eq!(told("a.iv", "png 1 1 a\nsRGB\n"), Format::Mp1);
         assert_eq!(told("a.txt", "what is this\nxyz"), Format::Hw2);
         assert_eq!(told("cube.OBJ", "v 1 2 3"), Format::Obj);
     }
 
     #[test]
     fn the_lists_are_the_grammars() {
-        let known = |keyword: &str| {
-            let text = format!("png 1 1 a.png\n{keyword} x x x x x x x");
-            let fault = crate::scene::hw2::parse_with(text.as_bytes(), &mut |_| Ok(()));
+        let text = |keyword: &str| format!("png 1 1 a.png\n{keyword} x x x x x x x");
+        let hw2 = |keyword: &str| {
+            let fault = crate::scene::hw2::parse_with(text(keyword).as_bytes(), &mut |_| Ok(()));
             !fault.is_err_and(|fault| fault.message.contains("not an HW2 keyword"))
         };
-        assert!(ONLY_HW2.into_iter().chain(SHARED).all(known));
-        assert!(!ONLY_MP1.into_iter().any(known));
+        let mp1 = |keyword: &str| {
+            let fault = crate::scene::mp1::parse_with(text(keyword).as_bytes(), &mut |_| Err(String::new()));
+            !fault.is_err_and(|fault| fault.message.contains("not an MP1 keyword"))
+        };
+        assert!(ONLY_HW2.into_iter().chain(SHARED).all(hw2));
+        assert!(!ONLY_MP1.into_iter().any(hw2));
+        assert!(ONLY_MP1.into_iter().chain(SHARED).all(mp1));
+        assert!(!ONLY_HW2.into_iter().any(mp1));
     }
 }

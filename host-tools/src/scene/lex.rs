@@ -60,7 +60,7 @@ fn split(text: &str, line: usize) -> Option<Line<'_>> {
 }
 
 /// The words of one line. Columns are counted along the way: a line of any length is walked once.
-fn tokens(text: &str, line: usize) -> impl Iterator<Item = Token<'_>> {
+pub(super) fn tokens(text: &str, line: usize) -> impl Iterator<Item = Token<'_>> {
     let mut column = 1;
     text.split([' ', '\t']).filter_map(move |word| {
         let place = Place { line, column };

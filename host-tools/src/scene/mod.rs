@@ -2,7 +2,11 @@
 //!
 //! ```text
 //! bytes -> lex (lines, tokens) -> arguments (numbers, indices, names) -> hw2, mp1 (the grammars) -> Scene
+//!                                 header (png), textures
 //! ```
+//!
+//! Inventor text knows no lines: `iv` has a lexer and a parser of its own. `obj` makes a mesh an Inventor scene. Neither
+//! format says how large its picture is: that is the command line's [`size`].
 //!
 //! A [`Scene`] is valid by construction: whoever holds one need not check a range, an index or a file name again.
 
@@ -10,10 +14,15 @@ use std::fmt;
 
 pub mod arguments;
 pub mod format;
+pub mod header;
 pub mod hw2;
+pub mod iv;
 pub mod lex;
 pub mod mp1;
 pub mod names;
+pub mod obj;
+pub mod size;
+pub mod textures;
 
 /// The longest side of a picture or texture, in pixels.
 pub const LONGEST_SIDE: u32 = 1 << 14;
@@ -42,6 +51,9 @@ pub struct Fault {
     pub place: Place,
     /// What is wrong and what was expected, one line.
     pub message: String,
+    /// Whether it is the text as a whole that is wrong, for something it lacks; then `place` is its beginning, and not
+    /// worth printing.
+    pub whole: bool,
 }
 
 impl Fault {
@@ -50,6 +62,15 @@ impl Fault {
         Self {
             place,
             message: message.into(),
+            whole: false,
+        }
+    }
+
+    /// A fault of the text as a whole.
+    pub fn of_whole(message: impl Into<String>) -> Self {
+        Self {
+            whole: true,
+            ..Self::new(Place { line: 1, column: 1 }, message)
         }
     }
 }
@@ -67,6 +88,10 @@ impl std::error::Error for Fault {}
 pub enum Scene {
     /// Points, matrices, lights, patches.
     Hw2(hw2::Scene),
+    /// Points in clip coordinates.
+    Mp1(mp1::Scene),
+    /// Convex faces, point lights, a camera; also what a Wavefront mesh becomes.
+    Iv(iv::Scene),
 }
 
 impl Scene {
@@ -74,21 +99,27 @@ impl Scene {
     pub fn size(&self) -> (u32, u32) {
         match self {
             Self::Hw2(scene) => (scene.width, scene.height),
+            Self::Mp1(scene) => (scene.width, scene.height),
+            Self::Iv(scene) => (scene.width, scene.height),
         }
     }
 
-    /// The picture's file name, as the scene suggests it; relative, inside the folder.
+    /// The picture's file name, as the scene or its own name suggests it; relative, inside the folder.
     pub fn output(&self) -> &str {
         match self {
             Self::Hw2(scene) => &scene.output,
+            Self::Mp1(scene) => &scene.output,
+            Self::Iv(scene) => &scene.output,
         }
     }
 
     /// The texture files it names, relative to its folder.
     pub fn textures(&self) -> impl Iterator<Item = &str> {
         let textures = match self {
-            Self::Hw2(scene) => &scene.textures,
+            Self::Hw2(scene) => Some(&scene.textures),
+            Self::Mp1(scene) => Some(&scene.textures),
+            Self::Iv(_) => None,
         };
-        textures.keys().map(String::as_str)
+        textures.into_iter().flatten().map(|(name, _)| name.as_str())
     }
 }

@@ -3,27 +3,23 @@
 //! Commands are checked in file order and their arguments from left to right, so that the fault reported is the
 //! first one in the text.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
-
-use crate::files;
 
 use super::view::{self, WRow};
 use super::{Action, Command, Fill, Scene};
+use crate::scene::Fault;
 use crate::scene::arguments::{Arguments, quoted};
+use crate::scene::header::header;
 use crate::scene::lex::{self, Line};
-use crate::scene::{Fault, LONGEST_SIDE, MOST_PIXELS, Place};
+use crate::scene::textures::{self, Textures};
 
-/// Parses a scene; textures are looked for in `folder`, and may have [`MOST_PIXELS`] in all.
+/// Parses a scene; textures are looked for in `folder`, and may have [`MOST_PIXELS`](crate::scene::MOST_PIXELS) in all.
 pub fn parse(text: impl AsRef<[u8]>, folder: &Path) -> Result<Scene, Fault> {
     let mut textures = BTreeMap::new();
-    let mut room = MOST_PIXELS;
+    let mut look_up = textures::in_folder(folder);
     let mut scene = parse_with(text.as_ref(), &mut |name| {
-        let texture = files::read_texture(&folder.join(name))?;
-        room = (room.checked_sub(texture.pixels.len() as u64))
-            .ok_or_else(|| format!("too large: with it, the scene's textures are more than {MOST_PIXELS} pixels"))?;
-        textures.insert(name.to_owned(), Arc::new(texture));
+        textures.insert(name.to_owned(), look_up(name)?);
         Ok(())
     })?;
     scene.textures = textures;
@@ -33,47 +29,24 @@ pub fn parse(text: impl AsRef<[u8]>, folder: &Path) -> Result<Scene, Fault> {
 /// Parses a scene; `check_texture` says what is wrong with the texture of a name, and is asked once for each.
 pub fn parse_with(text: &[u8], check_texture: &mut dyn FnMut(&str) -> Result<(), String>) -> Result<Scene, Fault> {
     let mut lines = lex::lines(text);
-    let first = lines.next().transpose()?;
-    let mut scene = picture(first)?;
+    let header = header(lines.next().transpose()?)?;
     let mut parser = Parser {
-        check_texture,
-        textures: HashSet::new(),
+        textures: Textures::new(check_texture),
         vertices: Vec::new(),
         w_row: WRow::IDENTITY,
     };
+    let mut commands = Vec::new();
     for line in lines {
         let line = line?;
         let place = line.keyword.place;
         let action = parser.action(line)?;
-        scene.commands.push(Command { place, action });
-    }
-    Ok(scene)
-}
-
-/// The first command.
-fn picture(line: Option<Line<'_>>) -> Result<Scene, Fault> {
-    let Some(line) = line else {
-        let start = Place { line: 1, column: 1 };
-        return Err(Fault::new(start, "the scene is empty: no png command"));
-    };
-    if line.keyword.text != "png" {
-        let found = quoted(line.keyword.text);
-        let message = format!("the first command must be png, found {found}");
-        return Err(Fault::new(line.keyword.place, message));
-    }
-    let mut arguments = Arguments::new(line, 3)?;
-    let width = arguments.integer("width", 1, LONGEST_SIDE)?;
-    let height = arguments.integer("height", 1, LONGEST_SIDE)?;
-    let pixels = u64::from(width) * u64::from(height);
-    if pixels > MOST_PIXELS {
-        let message = format!("{width} x {height} are more than {MOST_PIXELS} pixels");
-        return Err(Fault::new(arguments.keyword(), message));
+        commands.push(Command { place, action });
     }
     Ok(Scene {
-        width,
-        height,
-        output: arguments.file_name()?,
-        commands: Vec::new(),
+        width: header.width,
+        height: header.height,
+        output: header.output,
+        commands,
         textures: BTreeMap::new(),
     })
 }
@@ -98,9 +71,7 @@ fn arity(keyword: &str) -> Option<usize> {
 
 /// What of the state so far decides whether a command is valid.
 struct Parser<'t> {
-    check_texture: &'t mut dyn FnMut(&str) -> Result<(), String>,
-    /// Names already found good.
-    textures: HashSet<String>,
+    textures: Textures<'t, ()>,
     vertices: Vec<[f64; 4]>,
     w_row: WRow,
 }
@@ -233,12 +204,7 @@ impl Parser<'_> {
     }
 
     fn texture(&mut self, arguments: &mut Arguments<'_>) -> Result<Action, Fault> {
-        let name = arguments.file_name()?;
-        if !self.textures.contains(&name) {
-            (self.check_texture)(&name)
-                .map_err(|message| Fault::new(arguments.last(), format!("texture {}: {message}", quoted(&name))))?;
-            self.textures.insert(name.clone());
-        }
+        let (name, ()) = self.textures.read(arguments)?;
         Ok(Action::Texture(name))
     }
 

@@ -7,6 +7,10 @@ use std::sync::Arc;
 use super::Place;
 use crate::picture::Picture;
 
+mod grammar;
+
+pub use grammar::{parse, parse_with};
+
 /// A valid scene: every argument in range, every index resolved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
