@@ -11,26 +11,29 @@ pub struct Attributes {
     pub normal: [f64; 3],
     /// xyz/w of the position under MV; zero where there is no light.
     pub eye: [f64; 3],
+    /// How opaque; only formats with transparent vertices look at it.
+    pub alpha: f64,
 }
 
 /// How many numbers [`Attributes`] are.
-pub const COUNT: usize = 11;
+pub const COUNT: usize = 12;
 
 impl Attributes {
     /// All numbers, in the order of the fields.
     pub fn values(&self) -> [f64; COUNT] {
         let ([r, g, b], [s, t]) = (self.color, self.texcoord);
         let ([nx, ny, nz], [x, y, z]) = (self.normal, self.eye);
-        [r, g, b, s, t, nx, ny, nz, x, y, z]
+        [r, g, b, s, t, nx, ny, nz, x, y, z, self.alpha]
     }
 
     /// From numbers in the order of [`values`](Self::values).
-    pub fn from_values([r, g, b, s, t, nx, ny, nz, x, y, z]: [f64; COUNT]) -> Self {
+    pub fn from_values([r, g, b, s, t, nx, ny, nz, x, y, z, alpha]: [f64; COUNT]) -> Self {
         Self {
             color: [r, g, b],
             texcoord: [s, t],
             normal: [nx, ny, nz],
             eye: [x, y, z],
+            alpha,
         }
     }
 
@@ -49,7 +52,7 @@ impl Attributes {
 /// the length of the difference too.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bounds {
-    /// Of red, green, blue.
+    /// Of red, green, blue and alpha.
     pub color: f64,
     /// Of s and t.
     pub texcoord: f64,
@@ -106,7 +109,7 @@ impl Bounds {
 }
 
 /// A carried value's rounding against the largest of its primitive: 30 bits, one of which the scale may leave unused.
-const CARRIED: f64 = 1.0 / (1u64 << 29) as f64;
+pub const CARRIED: f64 = 1.0 / (1u64 << 29) as f64;
 
 /// Error of each component of a unit normal as the core carries it.
 const CARRIED_NORMAL: f64 = 1.0 / (1u64 << 28) as f64;

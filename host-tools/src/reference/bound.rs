@@ -55,6 +55,14 @@ impl Tracked {
         )
     }
 
+    /// A rotation by an angle in radians, which the core takes as a fraction of a turn, to 2⁻⁶⁴ of it.
+    pub fn turning(radians: f64, axis: [f64; 3]) -> Self {
+        Self::new(
+            Matrix::turning(radians, axis),
+            60.0 * (f64::EPSILON + FIXED_TRIGONOMETRY),
+        )
+    }
+
     /// The turning part of `lookat`. Differences cancel: relative errors grow by the ratios that are divided by.
     pub fn looking(eye: [f64; 3], center: [f64; 3], up: [f64; 3]) -> Self {
         let forward = [0, 1, 2].map(|i| center[i] - eye[i]);
@@ -85,12 +93,25 @@ impl Tracked {
         Self::new(self.matrix.times(&right.matrix), error)
     }
 
+    /// The transposed matrix, which is as far off.
+    #[must_use]
+    pub fn transposed(&self) -> Self {
+        Self::new(self.matrix.transposed(), self.error)
+    }
+
     /// The vector transformed, and the bound of the length of its difference from the core's; `error` is that of `v`.
     pub fn apply(&self, v: &Vector, error: f64) -> (Vector, f64) {
         let size = size(v);
         let off = self.norm * error + self.error * (size + error) + ROUNDING * frobenius(&self.matrix) * size;
         (self.matrix.apply(v), off)
     }
+}
+
+/// How much more than a rounding the differences of paired planes (l and r, b and t, n and f) are off, at the worst.
+pub fn cancellation(planes: &[f64; 6]) -> f64 {
+    (planes.chunks(2))
+        .map(|pair| 1.0 + 2.0 * (pair[0].abs() + pair[1].abs()) / (pair[1] - pair[0]).abs())
+        .fold(1.0, f64::max)
 }
 
 /// The length of all four components.

@@ -7,7 +7,7 @@
 
 use super::attributes::{Attributes, Bounds};
 use super::bound::Tracked;
-use super::clip::{Corner as EyeCorner, Plane, Side, clip};
+use super::clip::{Corner as EyeCorner, Over, Plane, Side, clip};
 use super::matrix::Vector;
 use crate::compare::stated::SNAP;
 
@@ -85,6 +85,8 @@ pub struct Primitive<'a> {
     pub size: [f64; 2],
     /// Whether `cull` is on.
     pub cull: bool,
+    /// What attributes are linear over where the planes cut.
+    pub over: Over,
 }
 
 impl Primitive<'_> {
@@ -94,7 +96,7 @@ impl Primitive<'_> {
             return vec![self.outline(self.screen(self.triangle), None)];
         }
         let [exact, outer, inner] = [Side::Exact, Side::Generous, Side::Strict]
-            .map(|side| self.screen(&clip(self.triangle, self.planes, side)));
+            .map(|side| self.screen(&clip(self.triangle, self.planes, side, self.over)));
         if outer.len() < 3 {
             return Vec::new();
         }
@@ -139,35 +141,35 @@ impl Primitive<'_> {
         (polygon.iter())
             .map(|corner| {
                 let (clip, error) = self.projection.apply(&corner.eye, corner.error);
-                self.divided(clip, error, corner)
+                divided(clip, error, corner, self.size)
             })
             .collect()
     }
+}
 
-    /// A vertex off by E in clip space moves x/w by at most E / (|w| - E) and, its w being off, by |x/w| times as much
-    /// again towards or away from the centre.
-    fn divided(&self, [x, y, z, w]: Vector, error: f64, from: &EyeCorner) -> Corner {
-        let margin = w.abs() - error;
-        let relative = if margin > 0.0 { error / margin } else { f64::INFINITY };
-        let half = self.size.map(|s| s / 2.0);
-        let shift = SNAP + relative * half[0].hypot(half[1]);
-        Corner {
-            position: [x / w * half[0] + half[0], y / w * half[1] + half[1]],
-            z: z / w,
-            w,
-            color: from.at.color,
-            at: from.at,
-            at_error: from.at_error,
-            reach: shift + relative * (x / w * half[0]).hypot(y / w * half[1]),
-            shift,
-            depth_error: relative * (1.0 + (z / w).abs()) + f64::EPSILON * (z / w).abs(),
-            weight_error: relative,
-        }
+/// A corner on a screen of `size` px. A vertex off by E in clip space moves x/w by at most E / (|w| - E) and, its w being off,
+/// by |x/w| times as much again towards or away from the centre.
+pub fn divided([x, y, z, w]: Vector, error: f64, from: &EyeCorner, size: [f64; 2]) -> Corner {
+    let margin = w.abs() - error;
+    let relative = if margin > 0.0 { error / margin } else { f64::INFINITY };
+    let half = size.map(|s| s / 2.0);
+    let shift = SNAP + relative * half[0].hypot(half[1]);
+    Corner {
+        position: [x / w * half[0] + half[0], y / w * half[1] + half[1]],
+        z: z / w,
+        w,
+        color: from.at.color,
+        at: from.at,
+        at_error: from.at_error,
+        reach: shift + relative * (x / w * half[0]).hypot(y / w * half[1]),
+        shift,
+        depth_error: relative * (1.0 + (z / w).abs()) + f64::EPSILON * (z / w).abs(),
+        weight_error: relative,
     }
 }
 
 /// A corner that may be anywhere between its generous and its strict cut.
-fn widened(corner: &Corner, a: &Corner, b: &Corner) -> Corner {
+pub fn widened(corner: &Corner, a: &Corner, b: &Corner) -> Corner {
     let mut moved = *corner;
     for other in [a, b] {
         let [dx, dy] = [0, 1].map(|i| corner.position[i] - other.position[i]);
@@ -239,6 +241,7 @@ mod tests {
             projection: &Tracked::identity(),
             size: [120.0, 80.0],
             cull: false,
+            over: Over::Space,
         };
         primitive.outlines()
     }

@@ -64,7 +64,12 @@ impl Matrix {
 
     /// Turns by `degrees` about `axis`, which is normalised first; counter-clockwise in a right-handed frame.
     pub fn rotation(degrees: f64, axis: [f64; 3]) -> Self {
-        let (s, c) = degrees.to_radians().sin_cos();
+        Self::turning(degrees.to_radians(), axis)
+    }
+
+    /// As [`rotation`](Self::rotation), by an angle in radians.
+    pub fn turning(radians: f64, axis: [f64; 3]) -> Self {
+        let (s, c) = radians.sin_cos();
         let [x, y, z] = unit(axis);
         let d = 1.0 - c;
         Self([

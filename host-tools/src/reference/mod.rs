@@ -5,9 +5,12 @@ pub mod attributes;
 pub mod bound;
 pub mod clip;
 pub mod hw2;
+pub mod iv;
 pub mod log;
 pub mod material;
 pub mod matrix;
+pub mod mp1;
+pub mod pipeline;
 pub mod raster;
 
 use log::Polygon;
@@ -17,7 +20,7 @@ use log::Polygon;
 pub struct Pixel {
     /// Red, green, blue, alpha; not clamped, 1 is full; alpha is 0 where nothing was drawn and 1 elsewhere.
     pub color: [f64; 4],
-    /// z/w of the winner, 0 to 1; 1 where nothing was drawn.
+    /// z/w of the winner, of HW2 scenes from 0 to 1, of Inventor scenes from -1; 1 where nothing was drawn.
     pub depth: f64,
     /// The primitive that won the pixel, from 1; 0 is the background.
     pub primitive: u32,

@@ -1,4 +1,5 @@
-//! The triangle walk in float64, in the order that the official pictures show (formats/hw2.md sections 5 and 11).
+//! The triangle walk in float64, in the order that the official pictures show (formats/hw2.md sections 5 and 11,
+//! formats/mp1.md sections 4 and 8).
 //!
 //! An edge is walked from its upper end: step = (B - A) / (By - Ay), first point A + step (row0 - Ay) with row0 the first
 //! row inside the picture, then the step is added per row. A row is walked the same way from its left crossing. So a
@@ -42,8 +43,9 @@ pub fn walk<const N: usize>(
     }
 }
 
-/// The whole coordinates from `from` up to before `to` along one axis, clipped to `0..limit`.
-struct Walk<const N: usize> {
+/// The whole coordinates from `from` up to before `to` along one axis, clipped to `0..limit`, and the point at each.
+#[derive(Debug, Clone)]
+pub struct Walk<const N: usize> {
     point: Point<N>,
     step: Point<N>,
     at: f64,
@@ -51,7 +53,8 @@ struct Walk<const N: usize> {
 }
 
 impl<const N: usize> Walk<N> {
-    fn new(from: &Point<N>, to: &Point<N>, axis: usize, limit: u32) -> Self {
+    /// A walk along `axis`, [`X`] or [`Y`].
+    pub fn new(from: &Point<N>, to: &Point<N>, axis: usize, limit: u32) -> Self {
         let at = from[axis].ceil().max(0.0);
         let end = to[axis].min(f64::from(limit));
         let span = to[axis] - from[axis];

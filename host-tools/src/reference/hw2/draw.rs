@@ -8,7 +8,7 @@ use super::vertex::{Placed, any_direction, may_vanish};
 use crate::compare::stated::MIXED_HEADROOM;
 use crate::reference::Pixel;
 use crate::reference::attributes::{Attributes, Bounds, COUNT};
-use crate::reference::clip::{Corner, Side, clip};
+use crate::reference::clip::{Corner, Over, Side, clip};
 use crate::reference::log::{Polygon, Primitive};
 use crate::reference::material::{Fill, Material};
 use crate::reference::raster::{self, Point, Q, REST, X, Y, Z};
@@ -29,7 +29,7 @@ impl Reference {
         for corner in &mut triangle {
             corner.at_error = corner.at_error.plus(&carrying);
         }
-        let polygon = clip(&triangle, &self.planes, Side::Exact);
+        let polygon = clip(&triangle, &self.planes, Side::Exact, Over::Space);
         match (&material.fill, material.is_lit()) {
             (Fill::Flat(color), false) => self.fan::<COLORED>(number, &polygon, |_| *color),
             (Fill::Gouraud, false) => self.fan::<COLORED>(number, &polygon, divided),
@@ -49,6 +49,7 @@ impl Reference {
             projection: &self.projection,
             size: [f64::from(self.width), f64::from(self.height)],
             cull: self.cull,
+            over: Over::Space,
         };
         let polygon = |outline| Polygon {
             outline,

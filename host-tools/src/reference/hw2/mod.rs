@@ -15,6 +15,9 @@ use crate::reference::material::{Light, Material};
 use crate::reference::matrix::Matrix;
 use crate::reference::{Pixel, Rendered};
 
+/// A picture and its log.
+pub type Drawn = Rendered<Arc<Material>>;
+
 /// The float64 back end.
 pub struct Reference {
     width: u32,
@@ -60,7 +63,7 @@ impl Reference {
     }
 
     /// The picture and the log.
-    pub fn finish(self) -> Rendered<Arc<Material>> {
+    pub fn finish(self) -> Drawn {
         Rendered {
             width: self.width,
             height: self.height,

@@ -8,7 +8,7 @@ use super::vertex::{Given, divided_within, unit_within};
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
 use crate::compare::stated::FIXED_PRODUCT;
 use crate::picture::Picture;
-use crate::reference::bound::{Tracked, size};
+use crate::reference::bound::{Tracked, cancellation, size};
 use crate::reference::clip::Plane;
 use crate::reference::material::{Fill, Light, Material, Source};
 use crate::reference::matrix::{Matrix, Vector, length};
@@ -44,13 +44,6 @@ impl Reference {
             flat_normal_error: 0.0,
         }))
     }
-}
-
-/// How much more than a rounding the differences of paired planes (l and r, b and t, n and f) are off, at the worst.
-fn cancellation(planes: &[f64; 6]) -> f64 {
-    (planes.chunks(2))
-        .map(|pair| 1.0 + 2.0 * (pair[0].abs() + pair[1].abs()) / (pair[1] - pair[0]).abs())
-        .fold(1.0, f64::max)
 }
 
 impl BackEnd for Reference {
