@@ -11,7 +11,7 @@ use super::lamps::{AtScale, BULBS, Lamps};
 use super::material::{
     Decal, Gouraud, Interpolated, Plain, Polished, Same, Sampler, Surface, Textured, UnderLight, Unlit, Vector, pixel,
 };
-use crate::fixed::Pixel;
+use crate::fixed::{Pixel, texcoord};
 
 /// A triangle's surface.
 #[derive(Clone, Copy)]
@@ -142,7 +142,12 @@ fn sampler<'t>(
     corners: &[Corner; 3],
     headroom: u32,
 ) -> Result<([[i32; 2]; 3], Sampler<'t>), String> {
-    let (st, fraction_bits) = corner::texels(corners, [texture.width(), texture.height()], headroom)?;
+    let (st, fraction_bits) = texcoord::texels(
+        corners.map(|corner| corner.texcoord),
+        [texture.width(), texture.height()],
+        headroom,
+        texcoord::middle,
+    )?;
     Ok((st, Sampler::new(texture, fraction_bits)))
 }
 

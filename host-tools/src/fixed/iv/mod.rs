@@ -1,0 +1,129 @@
+//! Inventor scenes drawn by the core.
+//!
+//! ```text
+//! scene -> lamps (lights, materials) -> object (mesh, world space) -> shade (which program) -> the core's draw
+//! ```
+
+use fixel::clip::{Behind, DepthRange, Planes};
+use fixel::depth::{DepthBuffer, FAR, LessOrFar};
+use fixel::draw;
+use fixel::fragment::Fragment;
+use fixel::matrix::Matrix;
+use fixel::num::{Block, SineTable, Word};
+use fixel::target::Buffer;
+use fixel::view::{Carried, Cull, Vertex, View};
+use fixel::viewport::Viewport;
+use fixel::window::Window;
+
+use crate::fixed::{FixedPicture, Pixel};
+use crate::lower;
+use crate::scene::Fault;
+use crate::scene::iv::{Camera, Scene};
+
+mod lamps;
+mod object;
+mod shade;
+mod words;
+
+pub use words::words;
+
+/// The scene's picture.
+///
+/// # Errors
+/// A fault of the whole scene where its values do not fit the core.
+pub fn draw(scene: &Scene) -> Result<FixedPicture, Fault> {
+    draw_part(scene, Window::new(0, 0, scene.width as i32, scene.height as i32))
+}
+
+/// The part `window` of it: what a strip or a tile holds.
+///
+/// # Errors
+/// As [`draw()`].
+pub fn draw_part(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
+    if scene.width.max(scene.height) <= <i32 as Word>::GUARD as u32 {
+        with_word::<i32>(scene, window)
+    } else {
+        with_word::<i64>(scene, window)
+    }
+}
+
+/// With a certain word for the edges.
+///
+/// # Errors
+/// As [`draw()`], and where the picture does not fit the word.
+pub fn with_word<W: Word>(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
+    let size = window.width() * window.height();
+    let mut canvas = Canvas {
+        view: view::<W>(scene).map_err(Fault::of_whole)?,
+        window,
+        pixels: vec![Pixel::default(); size],
+        depths: vec![FAR; size],
+        primitives: 0,
+    };
+    for object in &scene.model.objects {
+        object::draw(&mut canvas, scene, object).map_err(Fault::of_whole)?;
+    }
+    Ok(FixedPicture {
+        width: window.width() as u32,
+        height: window.height() as u32,
+        pixels: canvas.pixels,
+        depth: canvas.depths,
+    })
+}
+
+fn view<W: Word>(scene: &Scene) -> Result<View<i64, W, 0>, String> {
+    let side = |pixels: u32| u16::try_from(pixels).map_err(|e| e.to_string());
+    let viewport = Viewport::<W>::new(0, 0, side(scene.width)?, side(scene.height)?).map_err(|e| e.to_string())?;
+    Ok(View {
+        projection: to_clip(&scene.model.camera)?,
+        planes: Planes::default(),
+        viewport: viewport.y_up().samples_at_centers(),
+        depth_range: DepthRange::MinusOneToOne,
+        behind: Behind::Cut,
+        cull: Cull::Clockwise,
+    })
+}
+
+/// World space to clip space.
+fn to_clip(camera: &Camera) -> Result<Matrix<i64>, String> {
+    let window = [
+        camera.left,
+        camera.right,
+        camera.bottom,
+        camera.top,
+        camera.near,
+        camera.far,
+    ];
+    let projection = Matrix::frustum(window.map(|v| lower::block([v]))).map_err(|e| e.to_string())?;
+    let turn = &camera.orientation;
+    let position = lower::block(camera.position);
+    let to_eye = Matrix::camera::<SineTable>(position, lower::block(turn.axis), lower::radians(turn.angle)?);
+    Ok(projection.product(&to_eye.map_err(|e| e.to_string())?))
+}
+
+/// The picture that grows, and the view that brings triangles onto it.
+struct Canvas<W> {
+    view: View<i64, W, 0>,
+    window: Window,
+    pixels: Vec<Pixel>,
+    depths: Vec<u16>,
+    /// Triangles so far.
+    primitives: u32,
+}
+
+impl<W: Word> Canvas<W> {
+    /// Draws one triangle, given in the world.
+    fn draw<F>(&mut self, world: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
+    where
+        F: Fragment<Pixel = Pixel, Varying: Carried>,
+    {
+        let ([a, b, c], [u, v, w]) = (world, carried);
+        let corners = [(a, u), (b, v), (c, w)].map(|(position, carried)| Vertex { position, carried });
+        let color = Buffer::strip(&mut self.pixels, self.window);
+        let depth = Buffer::strip(&mut self.depths, self.window);
+        if let (Ok(mut color), Ok(depth)) = (color, depth) {
+            let mut depth = DepthBuffer::<_, LessOrFar>::new(depth);
+            draw::primitive(&self.view, &mut color, &mut depth, &corners, fragment);
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! MP1 scenes drawn by the core.
+//!
+//! ```text
+//! scene -> units (numbers) -> primitive (which program) -> canvas (the core's draw) -> resolve, encode, cut off
+//!                              program (colour, over)
+//! ```
+
+use fixel::blend::Rgba;
+use fixel::depth::FAR;
+use fixel::num::Word;
+use fixel::supersample::Level;
+use fixel::viewport::Viewport;
+use fixel::window::Window;
+
+use crate::fixed::{FixedPicture, Pixel};
+use crate::scene::mp1::Scene;
+use crate::scene::{Fault, Place};
+
+mod canvas;
+mod primitive;
+mod program;
+mod units;
+
+use canvas::{Canvas, Views};
+use primitive::Brush;
+use units::Units;
+
+/// By how many bits the unit of the scene's colours is larger than 2^-28 of full.
+///
+/// # Errors
+/// As [`draw`].
+pub fn color_shift(scene: &Scene) -> Result<u32, Fault> {
+    Ok(Units::of(scene)?.shift)
+}
+
+/// The scene's picture.
+///
+/// # Errors
+/// A fault at the keyword of a primitive whose values do not fit the core.
+pub fn draw(scene: &Scene) -> Result<FixedPicture, Fault> {
+    draw_part(scene, Window::new(0, 0, scene.width as i32, scene.height as i32))
+}
+
+/// The part `window` of it: what a strip or a tile holds.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_part(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
+    let most = scene.width.max(scene.height) * scene.switches.fsaa;
+    if most <= <i32 as Word>::GUARD as u32 {
+        with_word::<i32>(scene, window)
+    } else {
+        with_word::<i64>(scene, window)
+    }
+}
+
+/// With a certain word for the edges.
+///
+/// # Errors
+/// As [`draw`], and where the picture does not fit the word.
+pub fn with_word<W: Word>(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
+    let start = Place { line: 1, column: 1 };
+    let whole = |message: String| Fault::new(start, message);
+    let fsaa = scene.switches.fsaa;
+    let level = Level::new(fsaa).map_err(|e| whole(e.to_string()))?;
+    let side = |pixels: u32| u16::try_from(pixels * fsaa).map_err(|e| whole(e.to_string()));
+    let viewport =
+        Viewport::<W>::new(0, 0, side(scene.width)?, side(scene.height)?).map_err(|e| whole(e.to_string()))?;
+    let brush = Brush {
+        switches: &scene.switches,
+        views: Views::new(&scene.switches, viewport).map_err(whole)?,
+        units: Units::of(scene)?,
+    };
+    let n = fsaa as i32;
+    let samples = Window::new(window.left * n, window.top * n, window.right * n, window.bottom * n);
+    let mut canvas = Canvas::new(samples, scene.switches.depth);
+    for (number, primitive) in (1..).zip(&scene.primitives) {
+        let drawn = brush.draw(&mut canvas, number, &primitive.shape);
+        drawn.map_err(|message| Fault::new(primitive.place, message))?;
+    }
+    Ok(finish(&canvas, level, brush.units, window))
+}
+
+/// Resolved, encoded, cut off. A pixel's depth is that of its first sample.
+fn finish(canvas: &Canvas, level: Level, units: Units, window: Window) -> FixedPicture {
+    let (width, n) = (window.width(), level.side());
+    let mut pixels = Vec::with_capacity(width * window.height());
+    for block in canvas.samples.chunks(width * n * n) {
+        let colors: Vec<Rgba> = block.iter().map(|sample| sample.color).collect();
+        level.resolve(&colors, width * n, |x, Rgba { color, alpha }| {
+            let [r, g, b] = color.map(|c| units.byte(c));
+            let samples = block.chunks(width * n).flat_map(|row| &row[x * n..(x + 1) * n]);
+            pixels.push(Pixel {
+                rgba: [r, g, b, units::byte(alpha)],
+                primitive: samples.map(|sample| sample.primitive).max().unwrap_or_default(),
+            });
+        });
+    }
+    let first = |i: usize| (i / width * n * width + i % width) * n;
+    let depth = |i: usize| canvas.depths.get(first(i)).copied().unwrap_or(FAR);
+    FixedPicture {
+        width: width as u32,
+        height: window.height() as u32,
+        depth: (0..pixels.len()).map(depth).collect(),
+        pixels,
+    }
+}
