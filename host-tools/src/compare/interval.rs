@@ -64,7 +64,10 @@ impl Interval {
     /// The least interval that holds both.
     #[must_use]
     pub fn join(self, other: Self) -> Self {
-        Self::of([self.low, self.high, other.low, other.high])
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
     }
 
     /// Whether `other` lies in this one.

@@ -2,15 +2,17 @@
 //! it cannot.
 //!
 //! δ of a corner is √2 · 2⁻⁹ px for the snapping plus the stated error of its vertex path; see
-//! [`reference::log`](crate::reference::log). Every allowance is computed from the float64 scene, never from the difference
+//! [`reference::log`]. Every allowance is computed from the float64 scene, never from the difference
 //! seen; the constants are in [`stated`].
 
 mod direction;
 pub mod interval;
+pub mod iv;
 mod judge;
 mod lighting;
 mod linear;
 pub mod look;
+pub mod mp1;
 pub mod picture;
 mod piece;
 pub mod screen;
@@ -22,7 +24,8 @@ mod tiles;
 
 use rayon::prelude::*;
 
-use crate::reference::Rendered;
+use crate::reference::log::Polygon;
+use crate::reference::{self, Rendered};
 use interval::Interval;
 use judge::Case;
 use look::{Look, Painted};
@@ -101,82 +104,65 @@ pub fn compare<M: Look + Sync>(fixed: &FixedPicture, reference: &Rendered<M>) ->
     let size = (fixed.width, fixed.height, fixed.pixels.len());
     let other = (reference.width, reference.height, reference.pixels.len());
     assert_eq!(size, other, "pictures of one scene have one size");
-    let bytes = reference.bytes();
-    let mut comparison = measured(fixed, reference, &bytes);
-    let differing: Vec<usize> = (0..bytes.len()).filter(|&i| fixed.pixels[i].rgba != bytes[i]).collect();
-    comparison.classes = vec![Class::Equal; bytes.len()];
-    for (&i, (class, beyond)) in differing.iter().zip(classify(fixed, reference, &differing)) {
-        comparison.classes[i] = class;
-        comparison.beyond_gradient = comparison.beyond_gradient.max(beyond);
-        comparison.count(class);
-    }
-    comparison
-}
-
-/// The figures that need no explanation.
-fn measured<M>(fixed: &FixedPicture, reference: &Rendered<M>, bytes: &[[u8; 4]]) -> Comparison {
-    let mut max_channel_error = 0;
-    let mut squares = 0;
-    for (pixel, bytes) in fixed.pixels.iter().zip(bytes) {
-        for (a, b) in pixel.rgba.iter().zip(bytes) {
-            let difference = a.abs_diff(*b);
-            max_channel_error = max_channel_error.max(difference);
-            squares += u64::from(difference) * u64::from(difference);
-        }
-    }
-    let rmse = (squares as f64 / (4 * bytes.len()) as f64).sqrt();
-    let pairs = fixed.pixels.iter().zip(&reference.pixels);
-    let differ = pairs.filter(|(a, b)| (a.primitive == 0) != (b.primitive == 0));
-    Comparison {
-        pixels_drawn: fixed.pixels.iter().filter(|p| p.primitive != 0).count() as u64,
-        coverage_differs: differ.count() as u64,
-        unexplained: 0,
-        max_channel_error,
-        rmse,
-        psnr: (squares > 0).then(|| 20.0 * (255.0 / rmse).log10()),
-        beyond_gradient: 0,
-        explained: Explained::default(),
-        classes: Vec::new(),
-    }
-}
-
-/// The classes of the differing pixels, and by how many levels those of class *colour* are beyond their gradient.
-fn classify<M: Look + Sync>(fixed: &FixedPicture, reference: &Rendered<M>, differing: &[usize]) -> Vec<(Class, u8)> {
-    if differing.is_empty() {
-        return Vec::new();
-    }
-    let (width, height) = (fixed.width, fixed.height);
-    let [low, high] = reference.depth_range;
-    let screen = Screen {
-        size: [f64::from(width), f64::from(height)],
-        depths: Interval { low, high },
+    let drawn = |i: usize| reference.pixels[i].primitive != 0;
+    let picture = Differing {
+        fixed,
+        reference: &reference.pixels,
+        depths: reference.depth_range,
     };
-    let shapes: Vec<Painted<'_, M>> = (reference.polygons.iter())
-        .map(|polygon| Painted {
-            shape: Shape::new(&polygon.outline, &screen),
-            material: &polygon.material,
-        })
-        .collect();
-    let other_winner = |&i: &usize| fixed.pixels[i].primitive != reference.pixels[i].primitive;
-    let contested: Vec<usize> = differing.iter().copied().filter(other_winner).collect();
-    let bounds = shapes.iter().map(|painted| painted.shape.bounds(width, height));
-    let tiles = Tiles::new(bounds, width, height, &contested);
-    let class = |&i: &usize| {
-        let (x, y) = (i % width as usize, i / width as usize);
-        let case = Case {
-            sample: [x as f64, y as f64],
-            fixed: &fixed.pixels[i],
-            reference: &reference.pixels[i],
+    Comparison::new(fixed, &reference.bytes(), drawn, |differing| {
+        picture.classify(&reference.polygons, differing)
+    })
+}
+
+/// Two pictures of which one primitive wins each pixel.
+struct Differing<'a> {
+    fixed: &'a FixedPicture,
+    reference: &'a [reference::Pixel],
+    /// Which z/w are drawn.
+    depths: [f64; 2],
+}
+
+impl Differing<'_> {
+    /// The classes of the differing pixels, and by how many levels those of class *colour* are beyond their gradient.
+    fn classify<M: Look + Sync>(&self, polygons: &[Polygon<M>], differing: &[usize]) -> Vec<(Class, u8)> {
+        let (fixed, reference) = (self.fixed, self.reference);
+        if differing.is_empty() {
+            return Vec::new();
+        }
+        let (width, height) = (fixed.width, fixed.height);
+        let [low, high] = self.depths;
+        let screen = Screen {
+            size: [f64::from(width), f64::from(height)],
+            depths: Interval { low, high },
         };
-        if other_winner(&i) {
-            return (
-                case.other_winner(tiles.near(x, y).iter().map(|&shape| &shapes[shape])),
-                0,
-            );
-        }
-        case.same_winner(of_primitive(&shapes, case.fixed.primitive))
-    };
-    differing.par_iter().map(class).collect()
+        let shapes: Vec<Painted<'_, M>> = (polygons.iter())
+            .map(|polygon| Painted {
+                shape: Shape::new(&polygon.outline, &screen),
+                material: &polygon.material,
+            })
+            .collect();
+        let other_winner = |&i: &usize| fixed.pixels[i].primitive != reference[i].primitive;
+        let contested: Vec<usize> = differing.iter().copied().filter(other_winner).collect();
+        let bounds = shapes.iter().map(|painted| painted.shape.bounds(width, height));
+        let tiles = Tiles::new(bounds, width, height, &contested);
+        let class = |&i: &usize| {
+            let (x, y) = (i % width as usize, i / width as usize);
+            let case = Case {
+                sample: [x as f64, y as f64],
+                fixed: &fixed.pixels[i],
+                reference: &reference[i],
+            };
+            if other_winner(&i) {
+                return (
+                    case.other_winner(tiles.near(x, y).iter().map(|&shape| &shapes[shape])),
+                    0,
+                );
+            }
+            case.same_winner(of_primitive(&shapes, case.fixed.primitive))
+        };
+        differing.par_iter().map(class).collect()
+    }
 }
 
 /// The shapes of one primitive; they stand together, since primitives are numbered in drawing order.
@@ -187,6 +173,52 @@ fn of_primitive<'a, 'b, M>(shapes: &'a [Painted<'b, M>], primitive: u32) -> &'a 
 }
 
 impl Comparison {
+    /// The figures, and the classes of the differing pixels as `classify` finds them; `drawn` tells where the reference drew.
+    fn new(
+        fixed: &FixedPicture,
+        reference: &[[u8; 4]],
+        drawn: impl Fn(usize) -> bool,
+        classify: impl FnOnce(&[usize]) -> Vec<(Class, u8)>,
+    ) -> Self {
+        let mut comparison = Self::figures(fixed, reference, drawn);
+        let differs = |&i: &usize| fixed.pixels[i].rgba != reference[i];
+        let differing: Vec<usize> = (0..reference.len()).filter(differs).collect();
+        comparison.classes = vec![Class::Equal; reference.len()];
+        for (&i, (class, beyond)) in differing.iter().zip(classify(&differing)) {
+            comparison.classes[i] = class;
+            comparison.beyond_gradient = comparison.beyond_gradient.max(beyond);
+            comparison.count(class);
+        }
+        comparison
+    }
+
+    /// The figures that need no explanation.
+    fn figures(fixed: &FixedPicture, reference: &[[u8; 4]], drawn: impl Fn(usize) -> bool) -> Self {
+        let mut max_channel_error = 0;
+        let mut squares = 0;
+        for (pixel, bytes) in fixed.pixels.iter().zip(reference) {
+            for (a, b) in pixel.rgba.iter().zip(bytes) {
+                let difference = a.abs_diff(*b);
+                max_channel_error = max_channel_error.max(difference);
+                squares += u64::from(difference) * u64::from(difference);
+            }
+        }
+        let rmse = (squares as f64 / (4 * reference.len()) as f64).sqrt();
+        let ours = |pixel: &picture::Pixel| pixel.primitive != 0;
+        let differ = |&(i, pixel): &(usize, &picture::Pixel)| ours(pixel) != drawn(i);
+        Self {
+            pixels_drawn: fixed.pixels.iter().filter(|p| ours(p)).count() as u64,
+            coverage_differs: fixed.pixels.iter().enumerate().filter(differ).count() as u64,
+            unexplained: 0,
+            max_channel_error,
+            rmse,
+            psnr: (squares > 0).then(|| 20.0 * (255.0 / rmse).log10()),
+            beyond_gradient: 0,
+            explained: Explained::default(),
+            classes: Vec::new(),
+        }
+    }
+
     fn count(&mut self, class: Class) {
         let counter = match class {
             Class::Equal => return,

@@ -70,7 +70,7 @@ impl<'a> Piece<'a> {
             extents,
             spread: (2 * count - 5) as f64,
             walk: (size[0] + size[1] + 8.0) * f64::EPSILON,
-            depth_steps: DEPTH_PER_COLUMN * (size[0] + 8.0) * screen.depth_step(),
+            depth_steps: DEPTH_PER_COLUMN * (extents[0] + 8.0) * screen.depth_step(),
         }
     }
 
@@ -140,6 +140,21 @@ impl<'a> Piece<'a> {
             moved,
             full: moved.map(|m| m.widened(bound)),
         })
+    }
+
+    /// The most columns of a span, those off the picture included.
+    pub fn columns(&self) -> f64 {
+        self.extents[0]
+    }
+
+    /// The largest 1/w that counts over the least that a sample may have.
+    pub fn ratio(&self, p: [f64; 2]) -> f64 {
+        self.greatest_q / self.least_q(p)
+    }
+
+    /// In how many times larger units than usual the core carries the values.
+    pub fn headroom(&self) -> f64 {
+        self.outline.headroom
     }
 
     /// The largest of some values at the polygon's corners.

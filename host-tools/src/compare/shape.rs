@@ -163,6 +163,13 @@ impl Edge {
     fn between(a: &Corner, b: &Corner, centre: [f64; 2], p: [f64; 2]) -> Self {
         let along = [0, 1].map(|i| b.position[i] - a.position[i]);
         let length = along[0].hypot(along[1]);
+        if !length.is_finite() {
+            // Nothing is known of where it lies.
+            return Self {
+                side: 0.0,
+                clearance: f64::NEG_INFINITY,
+            };
+        }
         if length == 0.0 {
             let from = [0, 1].map(|i| p[i] - a.position[i]);
             let clearance = from[0].hypot(from[1]) - a.reach.max(b.reach);

@@ -32,7 +32,8 @@ pub const PERSPECTIVE: f64 = 1.0 / (1u64 << 26) as f64;
 /// Depth is rounded to the nearest of 65535 steps. So two depths that decide a pixel may be one step apart.
 pub const DEPTH_ROUNDING: f64 = 0.5;
 
-/// Depth is stepped along a row in units of 2⁻¹⁵ steps, each cut off: steps of 65535 per column of the picture.
+/// Depth is stepped along a row in units of 2⁻¹⁵ steps, each cut off: steps of 65535 per column of the polygon, those off the picture
+/// included.
 pub const DEPTH_PER_COLUMN: f64 = 1.0 / (1u64 << 15) as f64;
 
 /// Half the side of the guard band in px, which pictures larger than it widen to [`WIDE_GUARD`]. Beyond it a triangle is
@@ -85,6 +86,51 @@ pub const LIT: f64 = 1.0 / (1u64 << 20) as f64;
 /// of a hundred lights of colours up to 3 and exponents up to 240 add up to 1/100 level; more than two levels takes a power that
 /// is steep, or brightness beyond all reason.
 pub const LIT_LEVELS: f64 = 2.0;
+
+/// `.iv`: units of materials and of lit colours, as `fixel::light::world` has them.
+pub const WORLD_UNIT: f64 = 1.0 / (1u64 << 28) as f64;
+
+/// `.iv`: a colour is rounded to 2⁻¹⁶ level before it is cut off to a byte; in levels.
+pub const WORLD_LEVEL: f64 = 1.0 / (1u64 << 17) as f64;
+
+/// `.iv`: interpolated colours are carried in quarters of [`WORLD_UNIT`], of which each pixel of a row may lose one.
+pub const WORLD_PER_COLUMN: f64 = WORLD_UNIT / 4.0;
+
+/// `.iv`: error of k = n·h beyond [`COSINE`], times |unit(e − v) + unit(L − v)|, as `fixel::light::world` states it.
+pub const WORLD_HALFWAY: f64 = 6.0 / (1u64 << 30) as f64;
+
+/// MP1: the core's unit of a channel and of alpha, 1 being full, where no colour of the scene is brighter than that allows.
+pub const CARRIED_CHANNEL: f64 = 1.0 / (1u64 << 28) as f64;
+
+/// MP1: error of a decoded channel relative to the largest, at least 1: it is rounded to units of 2⁻²⁴, where the curve is
+/// at most 2.3 times as steep as its value is large, which is 2⁻²³·⁸, and `fixel::srgb` adds ½ unit and 2⁻²⁸.
+pub const DECODED: f64 = 1.0 / (1u64 << 23) as f64;
+
+/// MP1: by how much an encoded channel may be too large, in levels of 255, as `fixel::srgb` states it. It is never too small.
+pub const ENCODED: f64 = 12.0 / 65536.0;
+
+/// MP1: rounding of a channel that is not encoded, in levels of 255: to the nearest 2⁻¹⁶ before it is cut off.
+pub const LEVEL_ROUNDING: f64 = 1.0 / (1u64 << 17) as f64;
+
+/// MP1: what one blend adds to a channel beyond half a unit, times the distance of the two colours; `fixel::blend` states it.
+pub const BLENDED: f64 = 1.0 / (1u64 << 29) as f64;
+
+/// MP1: error of a Wu line's weight, in units of [`CARRIED_CHANNEL`], as `fixel::segment` states it.
+pub const WEIGHT: f64 = 1.25;
+
+/// MP1: what averaging a pixel's samples adds to a channel beyond half a unit, times their colours' range; `fixel::supersample`
+/// states it.
+pub const RESOLVED: f64 = 1.0 / (1u64 << 22) as f64;
+
+/// MP1: units that interpolation over a triangle adds to a channel, beyond one a column of the polygon, on the picture or not, and the ratio of the largest 1/w to the
+/// pixel's: three for the quotient or, without one, steps from the corner on, and a few for rounding.
+pub const INTERPOLATED: f64 = 8.0;
+
+/// MP1: units that interpolation along a line adds, beyond one a step, as `fixel::segment` states it; and one for rounding.
+pub const ALONG: f64 = 3.0;
+
+/// MP1: a square's or disc's size is rounded to the nearest 1/256 px; all else about it is exact.
+pub const SIZE_ROUNDING: f64 = 1.0 / 512.0;
 
 /// Where w has both signs the core carries values in units so much larger: see the headroom of the fixed back end.
 pub const MIXED_HEADROOM: f64 = 1024.0;

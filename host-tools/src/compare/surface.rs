@@ -67,7 +67,7 @@ fn look(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Option<Verdict
         return Some(seen.judged(&seen.color, true));
     };
     let coordinates = piece.values(sight.sample, |c| c.at.texcoord, None, 0.0)?;
-    let texels = Texels::new(texture, &coordinates, lowering(piece, |e| e.texcoord));
+    let texels = Texels::new(texture, &coordinates, lowering(piece, |e| e.texcoord), f64::floor);
     let candidate = |(texel, own): ([u8; 4], bool)| {
         let [r, g, b, alpha] = texel;
         let mut surface = blended([r, g, b, if material.decals { alpha } else { 255 }], &seen.color);

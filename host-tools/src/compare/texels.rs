@@ -1,4 +1,4 @@
-//! The texels that a coordinate known to an interval may pick: formats/hw2.md section 6.
+//! The texels that a coordinate known to an interval may pick.
 
 use super::interval::Interval;
 use super::linear::Range;
@@ -21,9 +21,9 @@ struct Axis {
 }
 
 impl Axis {
-    /// floor(x + ½) of the coordinates x, and of the one that the reference has.
-    fn new(own: f64, coordinates: Interval, size: u32) -> Self {
-        let whole = |s: f64| (s * f64::from(size) + 0.5).floor();
+    /// x + ½ made whole, of the coordinates x and of the one that the reference has.
+    fn new(own: f64, coordinates: Interval, size: u32, round: fn(f64) -> f64) -> Self {
+        let whole = |s: f64| round(s * f64::from(size) + 0.5);
         let (first, last) = (whole(coordinates.low), whole(coordinates.high));
         let size = i64::from(size);
         let many = last - first + 1.0;
@@ -43,12 +43,12 @@ impl Axis {
 
 impl<'a> Texels<'a> {
     /// Those that the coordinates s and t may pick, with an error of the larger of both in units of the texture before they are
-    /// interpolated: the core has them in texels, in a common unit.
-    pub fn new(texture: &'a Picture, coordinates: &Range<2>, error: f64) -> Self {
+    /// interpolated: the core has them in texels, in a common unit. A coordinate x picks the texel `round`(x + ½).
+    pub fn new(texture: &'a Picture, coordinates: &Range<2>, error: f64, round: fn(f64) -> f64) -> Self {
         let longer = f64::from(texture.width.max(texture.height));
         let axis = |i: usize, size: u32| {
             let may_be = coordinates.full[i].widened(error * longer / f64::from(size));
-            Axis::new(coordinates.value[i], may_be, size)
+            Axis::new(coordinates.value[i], may_be, size, round)
         };
         let axes = [axis(0, texture.width), axis(1, texture.height)];
         Self { texture, axes }
