@@ -6,6 +6,8 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 
 use crate::scene::format::Format;
+use crate::scene::iv::Shading;
+use crate::scene::size::Size;
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 within limits, 1 differs, 2 bad scene or bad usage, 3 file trouble, 4 internal error; of several \
@@ -33,6 +35,18 @@ pub struct Args {
     /// Format of the scenes [default: told from the text]
     #[arg(long, value_enum)]
     pub format: Option<Format>,
+
+    /// Size of the picture, of iv and OBJ scenes [default: 500x500]
+    #[arg(long, value_name = "WxH")]
+    pub size: Option<Size>,
+
+    /// How faces get their colours, of iv and OBJ scenes [default: gouraud]
+    #[arg(long, value_enum)]
+    pub shading: Option<Shading>,
+
+    /// Add a dim light at the camera, to iv and OBJ scenes
+    #[arg(long)]
+    pub eyelight: bool,
 
     /// Picture of the float64 reference (one scene)
     #[arg(long, value_name = "FILE")]
@@ -78,6 +92,17 @@ impl Args {
             )),
             _ => Ok(args),
         }
+    }
+
+    /// An option given that says what only iv and OBJ scenes leave open.
+    pub fn view_option(&self) -> Option<&'static str> {
+        [
+            (self.size.is_some(), "--size"),
+            (self.shading.is_some(), "--shading"),
+            (self.eyelight, "--eyelight"),
+        ]
+        .into_iter()
+        .find_map(|(given, name)| given.then_some(name))
     }
 
     /// An option given that names one file, and so can serve one scene only.
@@ -133,6 +158,13 @@ mod tests {
             "host-render a.txt --ties t.png",
             "host-render a.txt --format png",
             "host-render a.txt --report r.html",
+            "host-render a.iv --size",
+            "host-render a.iv --size 10",
+            "host-render a.iv --size 0x10",
+            "host-render a.iv --size 20000x1",
+            "host-render a.iv --shading 1",
+            "host-render a.iv --eyelight=0.5",
+            "host-render a.iv --eyelight --eyelight",
             "host-render a.txt -o",
         ] {
             assert!(refused(line), "{line}");

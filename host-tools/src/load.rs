@@ -2,10 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::args::Args;
 use crate::exit::Failure;
 use crate::files;
 use crate::scene::format::{self, Format};
-use crate::scene::{Fault, Place, Scene, hw2};
+use crate::scene::iv::{self, Model, Shading};
+use crate::scene::size::Size;
+use crate::scene::{Scene, hw2, mp1, obj};
 
 /// A scene and where it came from.
 #[derive(Debug)]
@@ -25,16 +28,23 @@ impl Loaded {
     }
 }
 
-/// Reads and parses a scene, in the given format or the one its text tells.
-pub fn load(file: &Path, given: Option<Format>) -> Result<Loaded, Failure> {
+/// Reads and parses a scene, in the format that the command line or else its text tells.
+pub fn load(file: &Path, args: &Args) -> Result<Loaded, Failure> {
     let text = files::read(file)?;
-    let (format, place) = match given {
-        Some(format) => (format, Place { line: 1, column: 1 }),
-        None => format::detect(file, &text),
-    };
+    let format = args.format.unwrap_or_else(|| format::detect(file, &text));
+    if let (Format::Hw2 | Format::Mp1, Some(option)) = (format, args.view_option()) {
+        let message = format!(
+            "{}: {option} is for iv and obj scenes, this one is {format}",
+            file.display()
+        );
+        return Err(Failure::bad(message));
+    }
+    let size = args.size.unwrap_or(Size::DEFAULT);
     let parsed = match format {
         Format::Hw2 => hw2::parse(&text, folder(file)).map(Scene::Hw2),
-        other => Err(Fault::new(place, format!("format {other} is not supported yet"))),
+        Format::Mp1 => mp1::parse(&text, folder(file)).map(Scene::Mp1),
+        Format::Iv => iv::parse(&text).map(|model| viewed(model, size, file, args)),
+        Format::Obj => obj::parse(&text, size).map(|model| viewed(model, size, file, args)),
     };
     match parsed {
         Ok(scene) => Ok(Loaded {
@@ -44,6 +54,19 @@ pub fn load(file: &Path, given: Option<Format>) -> Result<Loaded, Failure> {
         }),
         Err(fault) => Err(Failure::scene(file, &fault)),
     }
+}
+
+/// A model with what only the command line says of its picture; the picture is called what the file is.
+fn viewed(model: Model, size: Size, file: &Path, args: &Args) -> Scene {
+    let name = file.file_stem().unwrap_or_default().to_string_lossy();
+    Scene::Iv(iv::Scene {
+        width: size.width(),
+        height: size.height(),
+        output: format!("{name}.png"),
+        shading: args.shading.unwrap_or(Shading::Gouraud),
+        eyelight: args.eyelight,
+        model,
+    })
 }
 
 /// The scene's folder, which its textures are relative to.

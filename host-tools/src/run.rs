@@ -51,7 +51,7 @@ fn all(args: &Args) -> Result<Vec<Outcome>, Exit> {
     let loaded: Vec<Result<Loaded, Failure>> = args
         .scenes
         .par_iter()
-        .map(|file| guarded(file, || load(file, args.format)))
+        .map(|file| guarded(file, || load(file, args)))
         .collect();
     let good: Vec<&Loaded> = loaded.iter().filter_map(|loaded| loaded.as_ref().ok()).collect();
     let outputs = plan(args, &good).map_err(|collision| {

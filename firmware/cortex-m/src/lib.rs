@@ -8,6 +8,7 @@
 use core::sync::atomic::{Ordering::SeqCst, compiler_fence};
 
 use cortex_m::peripheral::{SYST, syst::SystClkSource};
+use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
 use cortex_m_semihosting::hprintln;
 use fixel_workloads::machine::{Line, Machine};
 
@@ -62,5 +63,14 @@ impl Machine for Board {
 
     fn report(&mut self, line: &Line<'_>) {
         hprintln!("{}", line);
+    }
+}
+
+/// Runs an image's program on the board and ends the emulator; with success if the program says so.
+pub fn run(program: impl FnOnce(&mut Board) -> bool) -> ! {
+    let core = cortex_m::Peripherals::take();
+    let done = core.is_some_and(|core| program(&mut Board::calibrated(core.SYST)));
+    loop {
+        debug::exit(if done { EXIT_SUCCESS } else { EXIT_FAILURE });
     }
 }

@@ -72,7 +72,7 @@ impl Default for Frame {
 }
 
 /// The CRC-32 of zip and PNG over the little-endian bytes of `words`.
-fn crc32(words: &[u16]) -> u32 {
+pub(crate) fn crc32(words: &[u16]) -> u32 {
     const REVERSED_POLYNOMIAL: u32 = 0xedb8_8320;
     let bytes = words.iter().flat_map(|word| word.to_le_bytes());
     !bytes.fold(!0, |crc, byte| {

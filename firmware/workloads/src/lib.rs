@@ -1,13 +1,16 @@
-//! The measured program: the standard workloads and the built-in shapes, drawn through the raster door.
+//! The measured programs: the standard workloads and the built-in shapes, drawn through the raster door, and models, drawn
+//! from their vertices on.
 //!
-//! The images run it on an emulated board, the developers' command runs it on the host; both report the same lines but
+//! The images run them on an emulated board, the developers' commands run them on the host; both report the same lines but
 //! for the instruction counts, checksums equal bit for bit.
 
 #![no_std]
 
 pub mod bytes;
 pub mod draw;
+pub mod flat;
 pub mod frame;
 pub mod machine;
+pub mod model;
 pub mod program;
 pub mod shapes;

@@ -17,7 +17,7 @@ pub struct Line<'a> {
     pub name: &'a str,
     /// What drawing it once took.
     pub instructions: u32,
-    /// How many pixels it covers, hidden ones included.
+    /// How many pixels it covers, hidden ones included; of a model, what its stage says.
     pub units: u32,
     /// CRC-32 of the colour buffer afterwards, little-endian.
     pub color: u32,

@@ -4,8 +4,6 @@
 #![no_main]
 
 use cortex_m_rt::entry;
-use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
-use fixel_cortex_m::Board;
 use fixel_workloads::{frame::Frame, program};
 use panic_semihosting as _;
 
@@ -15,14 +13,8 @@ static WORKLOADS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/workloads.bi
 fn main() -> ! {
     static mut FRAME: Frame = Frame::new();
 
-    let status = match cortex_m::Peripherals::take() {
-        Some(core) => {
-            program::run(&mut Board::calibrated(core.SYST), FRAME, WORKLOADS);
-            EXIT_SUCCESS
-        }
-        None => EXIT_FAILURE,
-    };
-    loop {
-        debug::exit(status);
-    }
+    fixel_cortex_m::run(|board| {
+        program::run(board, FRAME, WORKLOADS);
+        true
+    })
 }

@@ -4,6 +4,7 @@
 //! the same picture drawn by triangles that fit the screen. Valgrind runs this program once for each and counts the
 //! host's instructions in the core's draw calls.
 
+use std::ffi::OsStr;
 use std::process::Command;
 use std::{env, io};
 
@@ -53,7 +54,7 @@ const FITTING: [[Point; 3]; 4] = {
 /// Counts both and judges.
 pub fn run() -> Result<(), Failure> {
     let differing = pixels_that_differ().map_err(|e| Failure::trouble("drawing", e))?;
-    let (far, fitting) = (count("far")?, count("fitting")?);
+    let (far, fitting) = (count_case("far")?, count_case("fitting")?);
     let ratio = far as f64 / fitting as f64;
     println!("corners 10^8 pictures away   {far:>8} instructions on the host");
     println!("triangles that fit           {fitting:>8}");
@@ -124,16 +125,21 @@ fn counted_draw_calls(
 }
 
 /// Instructions in the draw calls of a case.
-fn count(case: &str) -> Result<u64, Failure> {
+fn count_case(case: &str) -> Result<u64, Failure> {
+    count("counted_draw_calls", ["draw-case", case])
+}
+
+/// Instructions that this program, run with `arguments`, spends in `function`.
+pub fn count(function: &str, arguments: impl IntoIterator<Item: AsRef<OsStr>>) -> Result<u64, Failure> {
     let program = env::current_exe().map_err(|e| Failure::trouble("this program", e))?;
     let output = Command::new("valgrind")
         .args([
             "--tool=callgrind",
-            "--toggle-collect=*counted_draw_calls*",
+            &format!("--toggle-collect=*{function}*"),
             "--callgrind-out-file=/dev/null",
         ])
         .arg(program)
-        .args(["draw-case", case])
+        .args(arguments)
         .output()
         .map_err(|e| match e.kind() {
             io::ErrorKind::NotFound => Failure::Usage(

@@ -6,7 +6,7 @@ use crate::limits::Limits;
 use crate::outcome::{Outcome, find};
 use crate::toolchain::Toolchain;
 use crate::workloads::Workloads;
-use crate::{emulator, host, image};
+use crate::{emulator, flat, host, image};
 
 /// Checks everything; `update_limits` stores the counts instead of judging them.
 pub fn run(update_limits: bool) -> Result<(), Failure> {
@@ -33,6 +33,7 @@ pub fn run(update_limits: bool) -> Result<(), Failure> {
             differing.len()
         );
         off.extend(differing);
+        off.extend(flat::check(board, &toolchain)?);
         if update_limits {
             limits.update(board, toolchain.version(), &outcomes);
         } else {
@@ -49,7 +50,7 @@ pub fn run(update_limits: bool) -> Result<(), Failure> {
 
 /// Builds and runs the measuring image.
 pub fn measure(board: &Board, toolchain: &Toolchain, workloads: &[u8]) -> Result<Vec<Outcome>, Failure> {
-    let image = image::build(board, toolchain, "measure", workloads)?;
+    let image = image::build(board, toolchain, image::MEASURE, workloads)?;
     Outcome::parse_all(&emulator::run(board, &image)?)
 }
 

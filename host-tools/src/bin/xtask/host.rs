@@ -1,7 +1,9 @@
-//! The measured program on this machine: same code, same lines, nothing counted.
+//! The measured programs on this machine: same code, same lines, nothing counted.
 
+use fixel_workloads::flat;
 use fixel_workloads::frame::Frame;
 use fixel_workloads::machine::{Line, Machine};
+use fixel_workloads::model::{self, canvas::Canvas};
 use fixel_workloads::program;
 
 use crate::outcome::Outcome;
@@ -26,4 +28,19 @@ pub fn run(bytes: &[u8]) -> Vec<Outcome> {
     let mut host = Host { outcomes: Vec::new() };
     program::run(&mut host, &mut Frame::new(), bytes);
     host.outcomes
+}
+
+/// Draws the flat triangles; nothing where they cannot be drawn.
+pub fn draw_flat(draw: flat::Draw) -> Vec<Outcome> {
+    let mut host = Host { outcomes: Vec::new() };
+    let _drawn = flat::run(&mut host, &mut Frame::new(), draw);
+    host.outcomes
+}
+
+/// Draws a model; also the picture. `None` where `words` hold none.
+pub fn draw_model(words: &[u16]) -> Option<(Vec<Outcome>, Box<Canvas>)> {
+    let mut host = Host { outcomes: Vec::new() };
+    let mut canvas = Box::new(Canvas::new());
+    model::program::run(&mut host, &mut canvas, words)?;
+    Some((host.outcomes, canvas))
 }

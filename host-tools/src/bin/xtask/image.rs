@@ -21,14 +21,46 @@ pub fn target_dir() -> PathBuf {
         .join("bare-metal")
 }
 
-/// Builds the image `name` for `board` with `workloads` in it; the file to run.
-pub fn build(board: &Board, toolchain: &Toolchain, name: &str, workloads: &[u8]) -> Result<PathBuf, Failure> {
+/// An image, and the data in it.
+#[derive(Debug, Clone, Copy)]
+pub struct Image {
+    /// What it is called.
+    name: &'static str,
+    /// What tells its build where the data is.
+    variable: &'static str,
+}
+
+/// Draws workloads.
+pub const MEASURE: Image = Image {
+    name: "measure",
+    variable: "FIXEL_WORKLOADS",
+};
+
+/// Draws a model.
+pub const MODEL: Image = Image {
+    name: "model",
+    variable: "FIXEL_MODEL",
+};
+
+/// Builds `image` for `board` with `data` in it; the file to run.
+pub fn build(board: &Board, toolchain: &Toolchain, image: Image, data: &[u8]) -> Result<PathBuf, Failure> {
+    let Image { name, variable } = image;
     let directory = std::path::absolute(target_dir()).map_err(|e| Failure::trouble("target directory", e))?;
-    let file = directory.join("workloads.bin");
-    write_if_new(&file, workloads)?;
+    let file = directory.join(name).with_extension("bin");
+    write_if_new(&file, data)?;
+    compile(board, toolchain, name, &[(variable, &file)])
+}
+
+/// Builds the image `name` for `board`, which has no data in it; the file to run.
+pub fn build_bare(board: &Board, toolchain: &Toolchain, name: &str) -> Result<PathBuf, Failure> {
+    compile(board, toolchain, name, &[])
+}
+
+fn compile(board: &Board, toolchain: &Toolchain, name: &str, data: &[(&str, &Path)]) -> Result<PathBuf, Failure> {
+    let directory = std::path::absolute(target_dir()).map_err(|e| Failure::trouble("target directory", e))?;
     let mut cargo = toolchain.cargo_build(&directory);
     cargo.args(["--release", "--package", board.package, "--bin", name]);
-    cargo.current_dir(root().join("firmware")).env("FIXEL_WORKLOADS", &file);
+    cargo.current_dir(root().join("firmware")).envs(data.iter().copied());
     run(&mut cargo, &format!("building {name} for {}", board.target))?;
     Ok(directory.join(board.target).join("release").join(name))
 }
