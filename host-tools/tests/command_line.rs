@@ -199,20 +199,18 @@ fn other_formats_and_keywords_are_told_apart() {
     let folder = Folder::new();
     folder
         .write("m.txt", "png 1 1 m.png\nxyzw 0 0 0 1\n sRGB\n")
-        .write("s.iv", "#Inventor V2.0 ascii\nSeparator { }\n")
-        .write("c.obj", "v 0 0 0\n")
+        .write("s.iv", "#Inventor V2.0 ascii\nSeparator { }\n PointLamp { }")
+        .write("c.obj", "v 0 0 0\nv 1 0 0\n f 1 2 3\n")
         .write(
             "n.txt",
             "png 1 1 n.png\nxyz 0 0 0\n shininess 3\nsunlight 0 0 1\nxyz 0 0 0\nxyz 1 0 0\ntrig 1 2 3\n",
         );
     for (arguments, start) in [
-        ("m.txt", "m.txt: line 3, column 2: format mp1 is not supported yet"),
-        ("s.iv", "s.iv: line 1, column 1: format iv is not supported yet"),
-        ("c.obj", "c.obj: line 1, column 1: format obj is not supported yet"),
-        (
-            "n.txt --format obj",
-            "n.txt: line 1, column 1: format obj is not supported yet",
-        ),
+        ("m.txt", "m.txt: line 3, column 2: sRGB must come right after png"),
+        ("s.iv", "s.iv: line 3, column 2: unknown block 'PointLamp'"),
+        ("c.obj", "c.obj: line 3, column 8: no such vertex: 2 made so far"),
+        ("n.txt --format obj", "n.txt: line 1, column 1: no faces"),
+        ("c.obj --format iv", "c.obj: line 1, column 1: unknown block 'v'"),
         (
             "c.obj --format hw2",
             "c.obj: line 1, column 1: the first command must be png",
@@ -223,6 +221,118 @@ fn other_formats_and_keywords_are_told_apart() {
         assert!(run.err.starts_with(start), "{}", run.err);
     }
     assert_eq!(folder.names(), ["c.obj", "m.txt", "n.txt", "s.iv"]);
+}
+
+/// A square in front of the camera, in the colours that make every channel 255.
+const IV: &str = "PerspectiveCamera { position 0 0 3 }\nSeparator {\n Material { ambientColor 1 1 1 }\n \
+    Coordinate3 { point [ -1 -1 0, 1 -1 0, 1 1 0, -1 1 0 ] }\n Normal { vector [ 0 0 1 ] }\n \
+    IndexedFaceSet { coordIndex [ 0,1,2,3,-1 ] normalIndex [ 0,0,0,0,-1 ] }\n}\n";
+
+const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+#[test]
+fn options_of_scenes_that_leave_them_open() {
+    let folder = Folder::new();
+    folder
+        .write("h.txt", SCENE)
+        .write("m.txt", "png 6 5 m.png\nsRGB\n")
+        .write("s.iv", IV)
+        .write("c.obj", OBJ);
+    for option in ["--size 9x9", "--shading phong", "--eyelight"] {
+        let name = option.split(' ').next().unwrap_or_default();
+        for (file, format) in [("h.txt", "hw2"), ("m.txt", "mp1"), ("s.iv --format hw2", "hw2")] {
+            let run = folder.run(&format!("{file} {option}"));
+            refused(&run, &format!("{name} is for iv and obj scenes, this one is {format}"));
+            assert_eq!(run.err.lines().count(), 1, "{}", run.err);
+        }
+    }
+    for bad in [
+        "--size 0x9",
+        "--size 9",
+        "--size 16384x16384",
+        "--shading none",
+        "--size",
+    ] {
+        assert_eq!(folder.run(&format!("s.iv {bad}")).code, Some(2), "{bad}");
+    }
+    assert_eq!(folder.names(), ["c.obj", "h.txt", "m.txt", "s.iv"]);
+    let two = folder.write("s.obj", OBJ).run("s.iv s.obj");
+    refused(&two, "would both write");
+}
+
+/// Size, shading and name of the picture where nobody says otherwise.
+#[test]
+fn inventor_and_wavefront_scenes_have_defaults() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("sub")).expect("a folder");
+    folder.write("sub/s.iv", IV).write("c.d.obj", OBJ);
+    let run = folder.run("--json sub/s.iv c.d.obj");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    let objects: Vec<serde_json::Value> = run
+        .out
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("one object per line"))
+        .collect();
+    for (object, format) in objects.iter().zip(["iv", "obj"]) {
+        assert_eq!(object["format"], format);
+        assert_eq!((&object["width"], &object["height"]), (&500.into(), &500.into()));
+        assert!(
+            object["pixels_drawn"].as_u64().is_some_and(|pixels| pixels > 1000),
+            "{object}"
+        );
+    }
+    assert_eq!(folder.names(), ["c.d.obj", "c.d.png", "s.png", "sub"]);
+    let decoded = |name: &str| fixel_host::png::decode(std::io::Cursor::new(folder.read(name))).expect("a PNG file");
+    assert_eq!(decoded("s.png").size(), (500, 500));
+    assert_eq!(decoded("s.png").pixels[250 * 500 + 250], [255; 4]);
+    assert_eq!(folder.run("sub/s.iv --shading gouraud -o g.png").code, Some(0));
+    assert_eq!(folder.read("g.png"), folder.read("s.png"));
+    assert_eq!(
+        folder
+            .run("c.d.obj --size 40x30 --shading flat --eyelight -o f.png")
+            .code,
+        Some(0)
+    );
+    assert_eq!(decoded("f.png").size(), (40, 30));
+}
+
+#[test]
+fn an_mp1_scene_becomes_a_picture() {
+    let folder = Folder::new();
+    let text = "png 9 7 m.png\nsRGB\nrgba 255 9 9 .5\nxyzw -1 -1 0 1\nxyzw 1 -1 0 1\nxyzw 0 1 0 1\ntri 1 2 3\n";
+    let shared = "png 9 7 s.png\nxyzw -1 -1 0 1\nxyzw 1 -1 0 1\nxyzw 0 1 0 1\ntexture m.png\ntrit 1 2 3\n";
+    folder.write("m.txt", text).write("s.txt", shared);
+    for (arguments, output) in [("m.txt --json", "m.png"), ("s.txt --json --format mp1", "s.png")] {
+        let run = folder.run(arguments);
+        assert_eq!(run.code, Some(0), "{run:?}");
+        let object: serde_json::Value = serde_json::from_str(&run.out).expect("an object");
+        assert_eq!((&object["format"], &object["unexplained"]), (&"mp1".into(), &0.into()));
+        let picture = fixel_host::png::decode(std::io::Cursor::new(folder.read(output))).expect("a PNG file");
+        assert_eq!(picture.size(), (9, 7));
+    }
+}
+
+#[test]
+fn what_the_core_cannot_hold_is_refused_at_its_keyword() {
+    let folder = Folder::new();
+    folder
+        .write(
+            "bright.txt",
+            "png 9 7 a.png\nrgba 32640 0 0 1\nxyzw 0 0 0 1\n point 3 1\n",
+        )
+        .write(
+            "large.txt",
+            "png 9 7 b.png\nrgba 1 1 1 1\nxyzw 0 0 0 1\n  circle 5000000 1\n",
+        );
+    for (arguments, start) in [
+        ("bright.txt", "bright.txt: line 4, column 2: a colour of 32640"),
+        ("large.txt", "large.txt: line 4, column 3: a size of 5000000"),
+    ] {
+        let run = folder.run(arguments);
+        assert_eq!(run.code, Some(2), "{run:?}");
+        assert!(run.err.starts_with(start), "{}", run.err);
+    }
+    assert_eq!(folder.names(), ["bright.txt", "large.txt"]);
 }
 
 #[test]

@@ -5,47 +5,66 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fixel::window::Window;
-use fixel_host::compare::{Comparison, compare};
-use fixel_host::fixed::FixedPicture;
-use fixel_host::fixed::hw2::Fixed;
+use fixel_host::args::Args;
+use fixel_host::compare::Comparison;
+use fixel_host::fixed::{self, FixedPicture};
 use fixel_host::interpret::interpret;
+use fixel_host::load::load;
 use fixel_host::png;
-use fixel_host::reference::hw2::Reference;
-use fixel_host::scene::hw2::{self, Scene};
+use fixel_host::render::render;
+use fixel_host::scene::iv::Shading;
+use fixel_host::scene::{Fault, Scene};
 use rayon::prelude::*;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/scenes")
 }
 
-/// Every scene, by name.
+/// Every scene of every format, by name; models in each shading.
 fn scenes() -> Vec<(String, Scene)> {
-    let folder = folder();
-    let entries = fs::read_dir(&folder).expect("the folder exists");
+    let entries = fs::read_dir(folder()).expect("the folder exists");
     let mut paths: Vec<PathBuf> = entries.map(|e| e.unwrap().path()).collect();
     paths.sort();
-    let texts = paths.iter().filter(|p| p.extension().is_some_and(|e| e == "txt"));
-    let parsed = texts.map(|path| {
-        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-        let scene = hw2::parse(fs::read(path).unwrap(), &folder).unwrap_or_else(|fault| panic!("{name}: {fault}"));
-        (name, scene)
-    });
-    parsed.collect()
+    let mut scenes = Vec::new();
+    for path in paths.iter().filter(|p| p.extension().is_some_and(|e| e != "png")) {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let args = Args::from(["host-render".as_ref(), path.as_os_str()]).expect("a command line");
+        let loaded = load(path, &args).unwrap_or_else(|failure| panic!("{}", failure.message));
+        let Scene::Iv(scene) = loaded.scene else {
+            scenes.push((name, loaded.scene));
+            continue;
+        };
+        for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+            let mut scene = scene.clone();
+            (scene.width, scene.height, scene.shading) = (200, 150, shading);
+            scenes.push((format!("{name} {shading:?}"), Scene::Iv(scene)));
+        }
+    }
+    scenes
 }
 
-fn drawn(name: &str, scene: &Scene, mut fixed: Fixed) -> FixedPicture {
-    interpret(scene, &mut fixed).unwrap_or_else(|fault| panic!("{name}: {fault}"));
-    fixed.finish()
+/// The part `window` of the core's picture.
+fn part(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
+    match scene {
+        Scene::Hw2(scene) => {
+            let mut fixed = fixed::hw2::Fixed::part(scene.width, scene.height, window);
+            interpret(scene, &mut fixed)?;
+            Ok(fixed.finish())
+        }
+        Scene::Mp1(scene) => fixed::mp1::draw_part(scene, window),
+        Scene::Iv(scene) => fixed::iv::draw_part(scene, window),
+    }
 }
 
 fn whole(name: &str, scene: &Scene) -> FixedPicture {
-    drawn(name, scene, Fixed::new(scene.width, scene.height))
+    let (width, height) = scene.size();
+    let drawn = part(scene, Window::new(0, 0, width as i32, height as i32));
+    drawn.unwrap_or_else(|fault| panic!("{name}: {fault}"))
 }
 
 fn compared(name: &str, scene: &Scene) -> Comparison {
-    let mut reference = Reference::new(scene.width, scene.height);
-    interpret(scene, &mut reference).unwrap_or_else(|fault| panic!("{name}: {fault}"));
-    compare(&whole(name, scene), &reference.finish())
+    let rendered = render(scene).unwrap_or_else(|fault| panic!("{name}: {fault}"));
+    rendered.comparison
 }
 
 #[test]
@@ -91,9 +110,9 @@ fn every_difference_is_explained() {
 
 /// Holds a part against the whole frame: colour, winner and depth.
 fn assert_part(name: &str, scene: &Scene, whole: &FixedPicture, window: Window) {
-    let part = drawn(name, scene, Fixed::part(scene.width, scene.height, window));
+    let part = part(scene, window).unwrap_or_else(|fault| panic!("{name}: {fault}"));
     for row in 0..window.height() {
-        let at = (window.top as usize + row) * scene.width as usize + window.left as usize;
+        let at = (window.top as usize + row) * whole.width as usize + window.left as usize;
         let (there, here) = (
             at..at + window.width(),
             row * window.width()..(row + 1) * window.width(),
@@ -108,8 +127,8 @@ fn assert_part(name: &str, scene: &Scene, whole: &FixedPicture, window: Window) 
 #[test]
 fn strips_and_tiles_are_parts_of_the_whole_frame() {
     scenes().par_iter().for_each(|(name, scene)| {
-        let (width, height) = (scene.width as i32, scene.height as i32);
         let whole = whole(name, scene);
+        let (width, height) = (whole.width as i32, whole.height as i32);
         for top in (0..height).step_by(24) {
             assert_part(name, scene, &whole, Window::new(0, top, width, (top + 24).min(height)));
         }
@@ -128,7 +147,7 @@ fn strips_and_tiles_are_parts_of_the_whole_frame() {
 fn the_drawn_texture_is_up_to_date() {
     let (name, scene) = scenes()
         .into_iter()
-        .find(|(name, _)| name == "drawn")
+        .find(|(name, _)| name == "drawn.txt")
         .expect("drawn.txt");
     let file = fs::File::open(folder().join("drawn.png")).unwrap();
     let texture = png::decode(std::io::BufReader::new(file)).unwrap();
@@ -142,10 +161,10 @@ fn the_drawn_texture_is_up_to_date() {
 fn the_finest_patches_have_no_cracks() {
     let (name, scene) = scenes()
         .into_iter()
-        .find(|(name, _)| name == "patches-fine")
+        .find(|(name, _)| name == "patches-fine.txt")
         .expect("patches-fine.txt");
     let picture = whole(&name, &scene);
-    for (y, row) in picture.pixels.chunks(scene.width as usize).enumerate() {
+    for (y, row) in picture.pixels.chunks(picture.width as usize).enumerate() {
         let runs = row.chunk_by(|a, b| (a.primitive == 0) == (b.primitive == 0));
         let drawn = runs.filter(|run| run[0].primitive != 0).count();
         assert!(drawn <= 1, "row {y} has {drawn} runs");
