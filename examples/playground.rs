@@ -71,13 +71,12 @@ impl<T: Word> Program<T> for Lit<'_, T> {
     }
 
     fn fragment(&self, _: Pixel, [u, v, x, y, z, a, b, c]: [i32; 8]) -> Option<Rgba> {
-        let texture = self.texture.as_ref();
-        let surface = texture.map_or(self.color, |texture| product(self.color, texture.sample([u, v])));
+        let texel = self.texture.as_ref().map(|texture| texture.sample([u, v]));
+        let surface = texel.map_or(self.color, |texel| product(self.color, texel));
         let (normal, to_eye) = (direction([a, b, c]), direction([-x, -y, -z]));
         let mut color = [0; 3];
         for light in self.lights {
-            let [lx, ly, lz] = light.position;
-            let to_light = direction([lx - x, ly - y, lz - z]);
+            let to_light = direction([0, 1, 2].map(|i| light.position[i] - [x, y, z][i]));
             let diffuse = cosine(to_light, normal);
             if diffuse <= 0 {
                 continue;
@@ -90,8 +89,7 @@ impl<T: Word> Program<T> for Lit<'_, T> {
                 *sum += part(part(surface.color[i], diffuse) + shine, light.color[i]);
             }
         }
-        let alpha = surface.alpha;
-        Some(Rgba { color, alpha })
+        Some(Rgba { color, ..surface })
     }
 }
 
@@ -112,10 +110,9 @@ fn part(whole: i32, part: i32) -> i32 {
 
 /// Two colours multiplied, alpha too.
 fn product(a: Rgba, b: Rgba) -> Rgba {
-    Rgba {
-        color: [0, 1, 2].map(|i| part(a.color[i], b.color[i] << 2)),
-        alpha: part(a.alpha, b.alpha << 2),
-    }
+    let color = [0, 1, 2].map(|i| part(a.color[i], b.color[i] << 2));
+    let alpha = part(a.alpha, b.alpha << 2);
+    Rgba { color, alpha }
 }
 
 fn point<T: Word>(corner: &Corner) -> Block<T, 4> {
@@ -199,10 +196,9 @@ pub fn draw<T: Word>(textures: &Textures) -> Result<Frame, Error> {
     let field_of_view = Angle::from_degrees(scene::FIELD_OF_VIEW as i32);
     let [near, far] = [scene::NEAR, scene::FAR].map(|distance| numbers([distance]));
     let projection = Matrix::perspective::<SineTable>(field_of_view, aspect.ok_or(Error::FlatView)?, near, far)?;
-    let lights = scene::LIGHTS.map(|light| {
-        let [x, y, z] = light.position;
+    let lights = scene::LIGHTS.map(|scene::Light([x, y, z], color)| {
         let [x, y, z, _] = fixed(view.transform(numbers([x, y, z, 1.0])));
-        let color = light.color.map(|c| (c * f64::from(1 << 30)).round() as i32);
+        let color = color.map(|c| (c * f64::from(1 << 30)).round() as i32);
         let position = [x, y, z];
         Light { position, color }
     });

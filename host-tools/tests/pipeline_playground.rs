@@ -150,11 +150,10 @@ fn item_pg_1_camera() {
 
 #[test]
 fn item_pg_2_lights() {
-    let light = |position, color| Light { position, color };
     let expected = [
-        light([-2.5, 2.0, 0.0], [0.7; 3]),
-        light([1.0, 3.0, 0.0], [0.2, 0.2, 0.9]),
-        light([0.0, 1.0, 0.0], [0.1; 3]),
+        Light([-2.5, 2.0, 0.0], [0.7; 3]),
+        Light([1.0, 3.0, 0.0], [0.2, 0.2, 0.9]),
+        Light([0.0, 1.0, 0.0], [0.1; 3]),
     ];
     assert_eq!(scene::LIGHTS, expected);
     // The highlights on the walls, left and right.

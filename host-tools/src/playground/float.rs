@@ -121,10 +121,9 @@ fn image(texture: Texture, textures: &Textures) -> (Image<4>, Sampler) {
 }
 
 fn lights(view: &Matrix) -> Vec<Light> {
-    let lights = scene::LIGHTS.iter().map(|light| {
-        let [x, y, z] = light.position;
+    let lights = scene::LIGHTS.iter().map(|&scene::Light([x, y, z], color)| {
         let [x, y, z, _] = view.apply(&[x, y, z, 1.0]);
-        let (position, color) = ([x, y, z], light.color);
+        let position = [x, y, z];
         Light { position, color }
     });
     lights.collect()

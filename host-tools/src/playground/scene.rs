@@ -29,29 +29,15 @@ pub const SPECULAR: f64 = 1.0;
 /// The exponent of highlights in every material.
 pub const SHININESS: u32 = 16;
 
-/// A point light without falloff.
+/// A point light without falloff: where it is in the world; red, green, blue.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Light {
-    /// In the world.
-    pub position: [f64; 3],
-    /// Red, green, blue.
-    pub color: [f64; 3],
-}
+pub struct Light(pub [f64; 3], pub [f64; 3]);
 
 /// The lights; there is no other light.
 pub const LIGHTS: [Light; 3] = [
-    Light {
-        position: [-2.5, 2.0, 0.0],
-        color: [0.7, 0.7, 0.7],
-    },
-    Light {
-        position: [1.0, 3.0, 0.0],
-        color: [0.2, 0.2, 0.9],
-    },
-    Light {
-        position: [0.0, 1.0, 0.0],
-        color: [0.1, 0.1, 0.1],
-    },
+    Light([-2.5, 2.0, 0.0], [0.7, 0.7, 0.7]),
+    Light([1.0, 3.0, 0.0], [0.2, 0.2, 0.9]),
+    Light([0.0, 1.0, 0.0], [0.1, 0.1, 0.1]),
 ];
 
 /// The textures by their names; all are clamped to their edges.
@@ -87,72 +73,42 @@ pub struct Object {
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-const WALL: Object = Object {
-    shape: &PLANE,
-    position: [0.0; 3],
-    scale: [2.0; 3],
-    turn: (0.0, Z),
-    color: [1.0; 4],
-    texture: None,
-    transparent: false,
-};
+/// A plane of four units a side.
+const fn wall(position: [f64; 3], turn: (f64, [f64; 3]), [r, g, b]: [f64; 3]) -> Object {
+    Object {
+        shape: &PLANE,
+        position,
+        scale: [2.0; 3],
+        turn,
+        color: [r, g, b, 1.0],
+        texture: None,
+        transparent: false,
+    }
+}
 
-const SOLID: Object = Object {
-    shape: &BOX,
-    color: [0.9, 0.9, 0.9, 1.0],
-    ..WALL
-};
+/// A box as it stands, light grey.
+const fn solid(position: [f64; 3], scale: [f64; 3], texture: Texture) -> Object {
+    Object {
+        shape: &BOX,
+        scale,
+        texture: Some(texture),
+        ..wall(position, (0.0, Z), [0.9, 0.9, 0.9])
+    }
+}
 
 /// The objects in drawing order: floor, left, right and back wall, board box, tall board box, random box, frosted glass.
 pub const OBJECTS: [Object; 8] = [
+    wall([0.0, -1.0, 0.0], (0.0, Z), [0.8, 0.8, 0.8]),
+    wall([0.0, 1.0, -2.0], (90.0, X), [0.9, 0.1, 0.1]),
+    wall([0.0, 1.0, 2.0], (-90.0, X), [0.1, 0.9, 0.1]),
+    wall([1.0, 1.0, 0.0], (90.0, Z), [0.1, 0.1, 0.9]),
+    solid([-1.75, 0.0, -1.0], [0.2, 0.5, 0.2], Texture::Board),
+    solid([0.5, 2.0, 0.0], [0.1, 2.0, 1.0], Texture::Board),
+    solid([-1.75, 0.0, 1.0], [0.2, 0.5, 0.2], Texture::Random),
     Object {
-        position: [0.0, -1.0, 0.0],
-        color: [0.8, 0.8, 0.8, 1.0],
-        ..WALL
-    },
-    Object {
-        position: [0.0, 1.0, -2.0],
-        turn: (90.0, X),
-        color: [0.9, 0.1, 0.1, 1.0],
-        ..WALL
-    },
-    Object {
-        position: [0.0, 1.0, 2.0],
-        turn: (-90.0, X),
-        color: [0.1, 0.9, 0.1, 1.0],
-        ..WALL
-    },
-    Object {
-        position: [1.0, 1.0, 0.0],
-        turn: (90.0, Z),
-        color: [0.1, 0.1, 0.9, 1.0],
-        ..WALL
-    },
-    Object {
-        position: [-1.75, 0.0, -1.0],
-        scale: [0.2, 0.5, 0.2],
-        texture: Some(Texture::Board),
-        ..SOLID
-    },
-    Object {
-        position: [0.5, 2.0, 0.0],
-        scale: [0.1, 2.0, 1.0],
-        texture: Some(Texture::Board),
-        ..SOLID
-    },
-    Object {
-        position: [-1.75, 0.0, 1.0],
-        scale: [0.2, 0.5, 0.2],
-        texture: Some(Texture::Random),
-        ..SOLID
-    },
-    Object {
-        position: [-1.5, 1.1, 0.0],
         scale: [0.75, 0.25, 0.5],
-        turn: (37.0, Z),
-        color: [0.9, 0.6, 0.9, 1.0],
         texture: Some(Texture::Frost),
         transparent: true,
-        ..WALL
+        ..wall([-1.5, 1.1, 0.0], (37.0, Z), [0.9, 0.6, 0.9])
     },
 ];
