@@ -80,7 +80,9 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
     }
 
     /// Corner `index`.
-    #[inline]
+    ///
+    /// A function of its own: where the two parts meet is decided in many places of a small program otherwise.
+    #[inline(never)]
     pub fn get(&self, index: usize) -> Option<&C> {
         self.built_in
             .get(index)
@@ -90,7 +92,7 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
     /// All corners in order.
     #[inline]
     pub fn iter(&self) -> impl Iterator<Item = &C> {
-        self.built_in.iter().chain(self.user.iter())
+        (0..self.len()).filter_map(|i| self.get(i))
     }
 
     /// All corners in order, to change them.
@@ -164,7 +166,7 @@ impl<T: Word, const N: usize> Planes<T, N> {
     pub fn clip<const K: usize>(&self, vertices: [Block<T, 4>; K]) -> Option<Polygon<ClipCorner<T>, N>> {
         let mut polygon = Polygon::of_vertices(vertices);
         for plane in &self.0 {
-            cut(&mut polygon, |position| distance(plane, position));
+            cut(&mut polygon, plane.mantissas());
         }
         (!polygon.is_empty()).then_some(polygon)
     }
@@ -173,14 +175,83 @@ impl<T: Word, const N: usize> Planes<T, N> {
     pub(crate) fn hold(&self, point: Block<T, 4>) -> bool {
         self.0
             .iter()
-            .all(|plane| distance(plane, point.mantissas()) >= T::Wide::ZERO)
+            .all(|plane| distance(plane.mantissas(), point.mantissas()) >= T::Wide::ZERO)
     }
 }
 
 /// p·(x, y, z, w), up to a positive factor: exact.
-pub(crate) fn distance<T: Word>(plane: &Block<T, 4>, [x, y, z, w]: [T; 4]) -> T::Wide {
-    let [a, b, c, d] = plane.mantissas();
+#[inline(always)]
+pub(crate) fn distance<T: Word>([a, b, c, d]: [T; 4], [x, y, z, w]: [T; 4]) -> T::Wide {
     a.times(x) + b.times(y) + c.times(z) + d.times(w)
+}
+
+/// A plane (0, 0, z, w).
+pub(crate) fn depth_plane<T: Word>(z: i32, w: i32) -> [T; 4] {
+    [0, 0, z, w].map(T::from_i32)
+}
+
+fn near_plane<T: Word>(range: DepthRange) -> [T; 4] {
+    depth_plane(1, (range == DepthRange::MinusOneToOne) as i32)
+}
+
+fn far_plane<T: Word>() -> [T; 4] {
+    depth_plane(-1, 1)
+}
+
+/// The planes that the screen needs, as data, so that one piece of code cuts by all of them.
+pub(crate) struct ScreenPlanes<T> {
+    /// Near, far, and the four sides of the guard band.
+    planes: [[T; 4]; 6],
+    /// How many of them, from the start, do not count.
+    skipped: usize,
+}
+
+impl<T: Word> ScreenPlanes<T> {
+    pub(crate) fn new<W: Word>(viewport: &Viewport<W>, range: DepthRange) -> Self {
+        let [right, below, left, above] = viewport.guard_planes();
+        ScreenPlanes {
+            planes: [near_plane(range), far_plane(), right, below, left, above],
+            skipped: if range == DepthRange::Unlimited { 2 } else { 0 },
+        }
+    }
+
+    /// One bit for each of them that a point lies outside of, exactly.
+    pub(crate) fn outcode(&self, position: [T; 4]) -> u8 {
+        let mut code = 0;
+        for &plane in self.planes.iter().skip(self.skipped) {
+            code = code << 1 | (distance(plane, position) < T::Wide::ZERO) as u8;
+        }
+        code
+    }
+
+    /// Cuts off what lies outside; `None` where all corners lie outside the same plane.
+    fn cut<const N: usize>(&self, polygon: &mut Polygon<ClipCorner<T>, N>) -> Option<()> {
+        let (mut all, mut any) = (u8::MAX, 0);
+        for corner in polygon.iter() {
+            let code = self.outcode(corner.position.mantissas());
+            (all, any) = (all & code, any | code);
+        }
+        if all != 0 {
+            return None;
+        }
+        if any != 0 {
+            for &plane in self.planes.iter().skip(self.skipped) {
+                cut(polygon, plane);
+            }
+        }
+        Some(())
+    }
+}
+
+/// Whether a point certainly lies inside all planes of the screen: the view volume does, and is soon tested.
+#[inline(always)]
+pub(crate) fn is_in_volume<T: Word>([x, y, z, w]: [T; 4], range: DepthRange) -> bool {
+    let in_depth = match range {
+        DepthRange::ZeroToOne => z >= T::ZERO && z <= w,
+        DepthRange::MinusOneToOne => z >= -w && z <= w,
+        DepthRange::Unlimited => true,
+    };
+    w > T::ZERO && x >= -w && x <= w && y >= -w && y <= w && in_depth
 }
 
 /// Cuts a polygon in clip space to what lies before the camera, all w > 0: by the near plane, and where that is not enough
@@ -190,7 +261,14 @@ pub(crate) fn before_camera<T: Word, W: Word, const N: usize>(
     viewport: &Viewport<W>,
     range: DepthRange,
 ) -> Option<Polygon<ClipCorner<T>, N>> {
-    cut_near(&mut polygon, range);
+    let planes = ScreenPlanes::new(viewport, range);
+    let outside = |corner: &ClipCorner<T>| planes.outcode(corner.position.mantissas());
+    if polygon.iter().map(outside).fold(u8::MAX, |all, code| all & code) != 0 {
+        return None;
+    }
+    if range != DepthRange::Unlimited {
+        cut(&mut polygon, near_plane(range));
+    }
     if polygon.iter().all(is_in_front) {
         return Some(polygon);
     }
@@ -202,28 +280,14 @@ fn is_in_front<T: Word>(corner: &ClipCorner<T>) -> bool {
     w > T::ZERO
 }
 
-fn cut_near<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, range: DepthRange) {
-    match range {
-        DepthRange::ZeroToOne => cut(polygon, |[_, _, z, _]| z.widen()),
-        DepthRange::MinusOneToOne => cut(polygon, |[_, _, z, w]| z.widen() + w.widen()),
-        DepthRange::Unlimited => {}
-    }
-}
-
-/// How far a point lies before the far plane, up to a positive factor: exact.
-fn before_far<T: Word>([_, _, z, w]: [T; 4]) -> T::Wide {
-    w.widen() - z.widen()
-}
-
 /// Whether a corner lies beyond the far plane.
 pub(crate) fn is_beyond<T: Word>(corner: &ClipCorner<T>, range: DepthRange) -> bool {
-    range != DepthRange::Unlimited && before_far(corner.position.mantissas()) < T::Wide::ZERO
+    range != DepthRange::Unlimited && distance(far_plane(), corner.position.mantissas()) < T::Wide::ZERO
 }
 
 /// Where the edge from `inner` to `outer`, which [is beyond](is_beyond) the far plane, crosses that.
 pub(crate) fn at_far<T: Word>(inner: &ClipCorner<T>, outer: &ClipCorner<T>) -> ClipCorner<T> {
-    let of = |corner: &ClipCorner<T>| before_far(corner.position.mantissas());
-    crossing(inner, of(inner), outer, of(outer))
+    crossing(inner, outer, far_plane())
 }
 
 /// Cuts a polygon in clip space to the depth range and the guard band; every corner that is left has w > 0. `None` for
@@ -234,6 +298,10 @@ pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
     range: DepthRange,
     behind: Behind,
 ) -> Option<Polygon<ClipCorner<T>, N>> {
+    let in_volume = |corner: &ClipCorner<T>| is_in_volume(corner.position.mantissas(), range);
+    if viewport.is_in_guard() && polygon.iter().all(in_volume) {
+        return (!polygon.is_empty()).then_some(polygon);
+    }
     if behind == Behind::Divide {
         for corner in polygon.iter_mut() {
             let [.., w] = corner.position.mantissas();
@@ -249,13 +317,7 @@ pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
             }
         }
     }
-    cut_near(&mut polygon, range);
-    if range != DepthRange::Unlimited {
-        cut(&mut polygon, before_far);
-    }
-    for side in 0..4 {
-        cut(&mut polygon, |position| viewport.guard_distance(position, side));
-    }
+    ScreenPlanes::new(viewport, range).cut(&mut polygon)?;
     (!polygon.is_empty() && polygon.iter().all(is_in_front)).then_some(polygon)
 }
 
@@ -264,24 +326,34 @@ pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
 ///
 /// Exactly one run of corners is cut away, the one that holds the outermost, so that a polygon grows by at most one
 /// corner per plane. Rounding can leave another corner a last place outside; it stays where it is.
-pub(crate) fn cut<T: Word, const N: usize>(
-    polygon: &mut Polygon<ClipCorner<T>, N>,
-    distance: impl Fn([T; 4]) -> T::Wide,
-) {
-    let of = |corner: &ClipCorner<T>| distance(corner.position.mantissas());
+///
+/// One function for all planes, which are data: inlined for each, cutting is most of a small program's code.
+#[inline(never)]
+pub(crate) fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, plane: [T; 4]) {
+    let of = |corner: &ClipCorner<T>| distance(plane, corner.position.mantissas());
     // Mantissas are normalised per corner, so that distances compare as angles do.
-    let Some((outermost, least)) = polygon.iter().map(of).enumerate().min_by_key(|&(_, d)| d) else {
-        return;
-    };
+    let (mut outermost, mut least) = (0, T::Wide::ZERO);
+    for (i, corner) in polygon.iter().enumerate() {
+        let distance = of(corner);
+        if distance < least {
+            (outermost, least) = (i, distance);
+        }
+    }
     if least >= T::Wide::ZERO {
         return;
     }
     // Counted from the outermost on, the corners that stay are those from the first to the last inside.
     let count = polygon.len();
     let after = |i: usize| if i < count { i } else { i - count };
-    let is_inside = |i: usize| polygon.get(i).is_some_and(|c| of(c) >= T::Wide::ZERO);
-    let first = (1..count).find(|&i| is_inside(after(outermost + i))).unwrap_or(count);
-    let last = (1..count).rev().find(|&i| is_inside(after(outermost + i))).unwrap_or(0);
+    let (mut first, mut last) = (count, 0);
+    for i in 1..count {
+        if polygon
+            .get(after(outermost + i))
+            .is_some_and(|c| of(c) >= T::Wide::ZERO)
+        {
+            (first, last) = (first.min(i), i);
+        }
+    }
     let stays = |i: usize| (first..=last).contains(&after(i + count - outermost));
 
     let mut kept = Polygon::default();
@@ -293,26 +365,18 @@ pub(crate) fn cut<T: Word, const N: usize>(
         if stays {
             kept.push(*corner);
         }
-        if count == 2 && i == 1 {
-            continue;
-        }
-        if stays && !next_stays {
-            kept.push(crossing(corner, of(corner), next, of(next)));
-        } else if next_stays && !stays {
-            kept.push(crossing(next, of(next), corner, of(corner)));
+        if stays != next_stays && (count > 2 || i == 0) {
+            let (inner, outer) = if stays { (corner, next) } else { (next, corner) };
+            kept.push(crossing(inner, outer, plane));
         }
     }
     *polygon = kept;
 }
 
 /// Where the edge from `inner` to `outer` crosses the plane.
-fn crossing<T: Word>(
-    inner: &ClipCorner<T>,
-    inner_distance: T::Wide,
-    outer: &ClipCorner<T>,
-    outer_distance: T::Wide,
-) -> ClipCorner<T> {
-    let (d_in, d_out) = (inner_distance, -outer_distance);
+fn crossing<T: Word>(inner: &ClipCorner<T>, outer: &ClipCorner<T>, plane: [T; 4]) -> ClipCorner<T> {
+    let d_in = distance(plane, inner.position.mantissas());
+    let d_out = -distance(plane, outer.position.mantissas());
     let bits = d_in.bit_length().max(d_out.bit_length());
     let shift = bits.saturating_sub(T::BITS);
     let (d_in, d_out) = ((d_in >> shift).narrow(), (d_out >> shift).narrow());

@@ -5,14 +5,14 @@
 //! therefore all that is ever asked, by either neighbour, so that both get the same answer: no gap and no double hit.
 //!
 //! **The walk.** Let the edge run down from A to B in subpixels (1/256 px), dx = B.x − A.x, dy = B.y − A.y > 0. Its
-//! x at row y, in pixels, is n/d with d = 256·dy and n = A.x·dy + dx·(256·y − A.y). Keep q = floor(n/d) and
-//! r = n − q·d; a row further n grows by 256·dx, that is q by floor(dx/dy) and r by 256·(dx mod dy), with a carry when
-//! r reaches d. Then 0 ≤ r < d and q·d + r = n hold at every row, exactly: no drift, ever. The column is q + (r > 0).
+//! x at row y, in pixels, is n/d with d = 256·dy and n = A.x·dy + dx·(256·y − A.y). Keep q = ceil(n/d), which is the column
+//! itself, and r = q·d − n; a row further n grows by 256·dx, that is q by floor(dx/dy) and −r by 256·(dx mod dy), with a
+//! carry when r falls below 0. Then 0 ≤ r < d and q·d − r = n hold at every row, exactly: no drift, ever.
 //!
-//! **The budget.** With |coordinates| ≤ G pixels: |dx|, dy ≤ 2·256·G. The first row lies less than a pixel below A, so
-//! with A.x = 256·i + f the remainder starts from f·dy + dx·p with 0 ≤ f, p < 256: at most 2·256·(512·G). For `i32` and
-//! G = 4096 that is 2^30, and d ≤ 2^29; for `i64` and G = 32768 there is room to spare. Rows above the window are
-//! skipped by one multiplication of double width.
+//! **The budget.** With |coordinates| ≤ G pixels: |dx|, dy ≤ 2·256·G. The first row lies p < 256 subpixels below A. With
+//! dx = s·dy + m, 0 ≤ m < dy, and A.x + s·p = 256·i + f, 0 ≤ f < 256, its n is i·d + f·dy + m·p: one division does for
+//! start and step, |s·p| < 2·256·256·G, and f·dy + m·p < 2·d ≤ 2·256·(512·G). For `i32` and G = 4096 that is 2^30; for
+//! `i64` and G = 32768 there is room to spare. Rows above the window are skipped by one multiplication of double width.
 
 use crate::num::{Wide, Word};
 
@@ -65,17 +65,21 @@ impl<W: Word> Edge<W> {
         let dy = W::from_i32(to.1 - from.1);
         let first = first_row(from.1);
         let prestep = W::from_i32((first << SUBPIXEL_BITS) - from.1);
-        let fraction = W::from_i32(from.0 & (SUBPIXELS - 1));
         let denominator = dy << SUBPIXEL_BITS;
-        let (whole, remainder) = (fraction * dy + dx * prestep).div_rem_floor(denominator);
         let (step, rest) = dx.div_rem_floor(dy);
+        let start = W::from_i32(from.0) + step * prestep;
+        let whole = start >> SUBPIXEL_BITS;
+        // In 0…2d−1 right of `whole`: its ceil is 0, 1 or 2 columns on.
+        let fraction = start - (whole << SUBPIXEL_BITS);
         let mut edge = Edge {
-            column: W::from_i32(from.0 >> SUBPIXEL_BITS) + whole,
-            remainder,
+            column: whole,
+            remainder: -(fraction * dy + rest * prestep),
             step,
             remainder_step: rest << SUBPIXEL_BITS,
             denominator,
         };
+        edge.carry();
+        edge.carry();
         if row > first {
             edge.skip(W::from_i32(row - first));
         }
@@ -85,38 +89,49 @@ impl<W: Word> Edge<W> {
     /// First column at or right of the edge in this row.
     #[inline(always)]
     pub fn column(&self) -> i32 {
-        self.column.low_i32() + (self.remainder > W::ZERO) as i32
+        self.column.low_i32()
     }
 
     /// The column that the edge is in or at the left side of in this row: floor.
     #[inline(always)]
     pub(crate) fn column_before(&self) -> i32 {
-        self.column.low_i32()
+        self.column.low_i32() - (self.remainder > W::ZERO) as i32
     }
 
     /// How far right of [`column_before`](Self::column_before), in 1/(256·dy) px: exact, 0 up to and without a pixel.
     #[inline(always)]
     pub(crate) fn remainder(&self) -> W {
-        self.remainder
+        if self.remainder > W::ZERO {
+            self.denominator - self.remainder
+        } else {
+            W::ZERO
+        }
     }
 
     /// One row down.
     #[inline(always)]
     pub fn descend(&mut self) {
         self.column = self.column + self.step;
-        self.remainder = self.remainder + self.remainder_step;
-        if self.remainder >= self.denominator {
-            self.remainder = self.remainder - self.denominator;
-            self.column = self.column + W::ONE;
-        }
+        self.remainder = self.remainder - self.remainder_step;
+        self.carry();
+    }
+
+    #[inline(always)]
+    fn carry(&mut self) {
+        // By masks: fewer instructions than by conditions.
+        let below = self.remainder.sign();
+        self.column = self.column - below;
+        self.remainder = self.remainder + (self.denominator & below);
     }
 
     /// `rows` rows down at once: the rows above the window cost one division, not their number.
     #[cold]
     fn skip(&mut self, rows: W) {
-        let remainder = self.remainder.widen() + rows.times(self.remainder_step);
-        let carries = remainder.div_floor(self.denominator.widen()).narrow();
+        // How far n has grown past q·d, in 1 − d…: rounded up, for which one less than d is added.
+        let grown = rows.times(self.remainder_step) - self.remainder.widen();
+        let most = self.denominator.widen() - W::ONE.widen();
+        let carries = (grown + most).div_floor(self.denominator.widen()).narrow();
         self.column = self.column + rows * self.step + carries;
-        self.remainder = (remainder - carries.times(self.denominator)).narrow();
+        self.remainder = (carries.times(self.denominator) - grown).narrow();
     }
 }

@@ -95,14 +95,15 @@ impl Basis {
         } else {
             (magnitude << -shift) as u32
         };
+        // 2^63/divisor is 2^32 for the least divisor only; one less is an error of 2^-32.
+        let reciprocal = reciprocal(divisor).min(u32::MAX as u64) as u32;
         Basis {
             corners: [0, corner, corner + 1],
             anchor: (origin.0 >> SUBPIXEL_BITS, origin.1 >> SUBPIXEL_BITS),
             fraction: (origin.0 & (SUBPIXELS - 1), origin.1 & (SUBPIXELS - 1)),
             first,
             second,
-            // 2^63/divisor is 2^32 for the least divisor only; one less is an error of 2^-32.
-            reciprocal: reciprocal(divisor).min(u32::MAX as u64) as u32,
+            reciprocal,
             shift,
             negative: area < 0,
             thin: reach.0 as i64 * reach.1 as i64 > 8 * magnitude as i64,
@@ -198,6 +199,14 @@ pub struct Place<'b> {
     skipped: i32,
 }
 
+impl Place<'_> {
+    /// The first covered sample of the row, on the window or not, and how many columns right of it the window's first is.
+    #[inline(always)]
+    pub(crate) fn whole(&self) -> (Self, i32) {
+        (Place { skipped: 0, ..*self }, self.skipped)
+    }
+}
+
 /// A value that is linear over the screen; see the [module](self).
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Plane {
@@ -228,6 +237,15 @@ impl Ramp<i32> {
         // Wrapping: the step after the last pixel may leave the range.
         self.value = self.value.wrapping_add(self.step);
     }
+
+    /// `count` columns on.
+    #[inline(always)]
+    pub fn after(&self, count: i32) -> Self {
+        Ramp {
+            value: self.value.wrapping_add(self.step.wrapping_mul(count)),
+            step: self.step,
+        }
+    }
 }
 
 impl Ramp<i64> {
@@ -235,6 +253,15 @@ impl Ramp<i64> {
     #[inline(always)]
     pub fn advance(&mut self) {
         self.value = self.value.wrapping_add(self.step);
+    }
+
+    /// `count` columns on.
+    #[inline(always)]
+    pub fn after(&self, count: i32) -> Self {
+        Ramp {
+            value: self.value.wrapping_add(self.step.wrapping_mul(count as i64)),
+            step: self.step,
+        }
     }
 }
 

@@ -6,7 +6,8 @@
 //! ```text
 //! vertex ──► clip ──► setup ──► span ──► pixel ──► target
 //! matrix     clip     gradient  edge     depth     target
-//! view       viewport varying   span     fragment  eg
+//! view       viewport slope     span     fragment  eg
+//!                     varying
 //! ```
 //!
 //! A primitive goes through these rooms once; [`draw`] calls them, and they do not call one another. From setup on
@@ -49,6 +50,8 @@
 //! models in flash indexed [`mesh`]es with a cache of transformed vertices. What has been drawn can be
 //! [averaged](supersample) and [encoded as sRGB](srgb).
 //!
+//! A frame that does not fit the memory is drawn in [`bands`], one on its way to the display while the next is drawn.
+//!
 //! # What a draw pays for
 //!
 //! Everything is chosen by type: [`NoDepth`](depth::NoDepth) or a depth buffer and its comparison, varyings
@@ -65,6 +68,7 @@
 //! | weights of antialiased lines | 2^-28 ([`segment::Pairs`]) | 1.25 units |
 //! | depth | 16 bits, linear over the screen ([`screen::FineDepth`]) | one step |
 //! | linear varyings | the user's units in an `i32` ([`gradient`]) | a unit per pixel along a span, never outside the corners' range |
+//! | colours for RGB565 | two channels a word ([`varying::Color565`]) | within a level of the exact value |
 //! | varyings in perspective | as linear ones, divided per pixel | see [`varying::Perspective`] |
 //! | colours with alpha | 2^-28, straight, ±8 times full ([`blend::Rgba`]) | half a unit + 2^-29 of the two colours' distance |
 //! | sRGB | 2^-16 level ([`srgb`]) | 0.0002 level |
@@ -76,6 +80,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod bands;
 pub mod blend;
 pub mod clip;
 pub mod depth;
@@ -96,6 +101,7 @@ pub mod patch;
 pub mod pipeline;
 pub mod screen;
 pub mod segment;
+pub mod slope;
 pub mod span;
 pub mod square;
 pub mod srgb;

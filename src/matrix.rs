@@ -73,6 +73,18 @@ impl<T: Word> Matrix<T> {
         )
     }
 
+    /// As [`transform`](Self::transform) of the point (x, y, z, 1) with x, y, z in units of 2^-15, to the same bits: sixteen
+    /// multiplications and one rounding, without making a block of the point first.
+    #[inline]
+    pub fn transform_point(&self, [x, y, z]: [i16; 3]) -> Block<T, 4> {
+        let point = [x as i32, y as i32, z as i32, 1 << 15].map(T::from_i32);
+        let [a, b, c, d] = self.rows();
+        Block::from_wide(
+            [dot(a, point), dot(b, point), dot(c, point), dot(d, point)],
+            self.0.exponent().saturating_sub(15),
+        )
+    }
+
     /// Moves by `by`.
     pub fn translation(by: Block<T, 3>) -> Self {
         let [x, y, z] = by.split();
@@ -285,6 +297,14 @@ impl<T: Word> Directions<T> {
     /// D·v.
     pub fn turn(&self, v: Block<T, 3>) -> Block<T, 3> {
         Block::gather(self.0.map(|row| row.dot(v)))
+    }
+
+    /// Dᵀ·v: v·(D·n) = (Dᵀ·v)·n.
+    pub fn turn_back(&self, v: Block<T, 3>) -> Block<T, 3> {
+        let [a, b, c] = self.0.map(Block::split);
+        let column = |i: [Scaled<T>; 3]| Block::gather(i).dot(v);
+        let ([a, d, g], [b, e, h], [c, f, i]) = (a, b, c);
+        Block::gather([column([a, b, c]), column([d, e, f]), column([g, h, i])])
     }
 
     /// D = D·R.

@@ -51,6 +51,7 @@
 //! ```
 
 use crate::error::Error;
+use crate::matrix::Matrix;
 use crate::num::{Block, Word};
 
 /// The type of a mesh's indices: `u16`, or `u32` for more than 65535 vertices.
@@ -286,6 +287,14 @@ impl<V: Copy, const A: usize, const N: usize> Cache<V, A, N> {
 pub trait Normalized {
     /// The point (x, y, z, 1).
     fn point<T: Word>(self) -> Block<T, 4>;
+    /// `matrix` · [`point`](Self::point), to the same bits, in the shortest way there is.
+    #[inline]
+    fn transformed<T: Word>(self, matrix: &Matrix<T>) -> Block<T, 4>
+    where
+        Self: Sized,
+    {
+        matrix.transform(self.point())
+    }
 }
 
 /// Units of 2^-15: 6 bytes a vertex, rounded to 2^-16 of the half-size.
@@ -300,6 +309,10 @@ impl Normalized for [i16; 3] {
     fn point<T: Word>(self) -> Block<T, 4> {
         let [x, y, z] = self.map(|c| T::from_i32(c as i32));
         Block::new([x, y, z, T::ONE << 15], -15)
+    }
+    #[inline]
+    fn transformed<T: Word>(self, matrix: &Matrix<T>) -> Block<T, 4> {
+        matrix.transform_point(self)
     }
 }
 

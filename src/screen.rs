@@ -72,6 +72,15 @@ impl Position {
         }
     }
 
+    /// Where a viewport of 32-bit words has placed something: within ±4096 px already.
+    #[inline(always)]
+    pub(crate) const fn placed((x, y): (i32, i32)) -> Self {
+        Position {
+            x: SubPx::from_bits(x),
+            y: SubPx::from_bits(y),
+        }
+    }
+
     /// To the right.
     pub const fn x(self) -> SubPx {
         self.x
@@ -130,6 +139,8 @@ pub trait Shape: Corners {
 }
 
 impl<V> Corners for [Corner<V>; 3] {
+    const TRIANGLE: bool = true;
+
     #[inline(always)]
     fn count(&self) -> usize {
         3

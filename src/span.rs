@@ -5,6 +5,7 @@
 //! within 1/256 px of a corner can turn a fan's sliver around, and a turned sliver is a pixel drawn twice.
 
 use core::marker::PhantomData;
+use core::ops::Range;
 
 use crate::edge::{Edge, first_row};
 use crate::num::Word;
@@ -12,6 +13,9 @@ use crate::window::Window;
 
 /// Corners of a polygon on the screen: (x, y) in subpixels, in order. Implemented for arrays and by closures.
 pub trait Corners {
+    /// Always three: a triangle needs no chains of edges.
+    const TRIANGLE: bool = false;
+
     /// How many.
     fn count(&self) -> usize;
     /// Position of corner `index`, (0, 0) beyond the last.
@@ -19,6 +23,8 @@ pub trait Corners {
 }
 
 impl<const N: usize> Corners for [(i32, i32); N] {
+    const TRIANGLE: bool = N == 3;
+
     #[inline(always)]
     fn count(&self) -> usize {
         N
@@ -102,7 +108,8 @@ pub fn doubled_area(corners: &impl Corners) -> i64 {
 /// Calls `draw` with every span of the polygon on `window`, from the top. `ccw` says which way the corners run
 /// ([`doubled_area`] > 0). A sample is covered iff it lies inside, on a left edge or on a horizontal top edge.
 ///
-/// Cost: two edges are set up per corner passed; a row above the window or beside it costs nothing.
+/// Cost: two edges are set up per corner passed; a row above the window costs nothing, and nothing is walked of a polygon
+/// that lies beside the window.
 ///
 /// ```
 /// use fixel::{span, window::Window};
@@ -112,16 +119,126 @@ pub fn doubled_area(corners: &impl Corners) -> i64 {
 /// assert_eq!(spans, [(0, 0..2), (1, 0..1)]);
 /// ```
 #[inline]
-pub fn scan<W: Word>(corners: &impl Corners, ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
+pub fn scan<W: Word>(corners: &impl Corners, ccw: bool, window: Window, draw: impl FnMut(Span)) {
+    if is_triangle(corners) {
+        scan_triangle::<W>([0, 1, 2].map(|i| corners.position(i)), ccw, window, draw);
+    } else {
+        scan_polygon::<W>(corners, ccw, window, draw);
+    }
+}
+
+#[inline(always)]
+fn is_triangle<S: Corners>(_: &S) -> bool {
+    S::TRIANGLE
+}
+
+/// Three corners: two edges run down from the top one, and one of them turns once.
+#[inline(always)]
+fn scan_triangle<W: Word>([a, b, c]: [(i32, i32); 3], ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
+    // Counter-clockwise on the screen, with the top one first: the left side is a-b-c, the right side a-c-b.
+    let (b, c) = if ccw { (b, c) } else { (c, b) };
+    let (a, b, c) = if b.1 < a.1 && b.1 <= c.1 {
+        (b, c, a)
+    } else if c.1 < a.1 {
+        (c, a, b)
+    } else {
+        (a, b, c)
+    };
+    if is_beside(window, a.0.min(b.0).min(c.0), a.0.max(b.0).max(c.0)) {
+        return;
+    }
+    let ends = (first_row(b.1), first_row(c.1));
+    let end = ends.0.max(ends.1).min(window.bottom);
+    let mut row = first_row(a.1).max(window.top);
+    // Above its end a side is on its first edge, from there on its second, which ends where the other side turned.
+    let mut left = Side::new(a, b, ends.0);
+    let mut right = Side::new(a, c, ends.1);
+    left.turn(row, c, ends.1);
+    right.turn(row, b, ends.0);
+    let mut edges = (Edge::<W>::default(), Edge::<W>::default());
+    let (mut left_turned, mut right_turned) = (true, true);
+    while row < end {
+        if left_turned {
+            edges.0 = Edge::new(left.from, left.to, row);
+        }
+        if right_turned {
+            edges.1 = Edge::new(right.from, right.to, row);
+        }
+        let stop = end.min(left.end).min(right.end);
+        rows(row..stop, window, &mut edges, &mut draw);
+        row = stop;
+        left_turned = left.turn(row, c, ends.1);
+        right_turned = right.turn(row, b, ends.0);
+    }
+}
+
+/// Whether all that lies between two columns, in subpixels, is left or right of the window: then no row is walked.
+#[inline(always)]
+fn is_beside(window: Window, leftmost: i32, rightmost: i32) -> bool {
+    first_row(leftmost) >= window.right || first_row(rightmost) <= window.left
+}
+
+/// An edge of a triangle's left or right side, and the row where it ends.
+struct Side {
+    from: (i32, i32),
+    to: (i32, i32),
+    end: i32,
+}
+
+impl Side {
+    #[inline(always)]
+    fn new(from: (i32, i32), to: (i32, i32), end: i32) -> Self {
+        Side { from, to, end }
+    }
+
+    /// Goes on to the edge down to `to` where this one has ended at `row`; whether it has.
+    #[inline(always)]
+    fn turn(&mut self, row: i32, to: (i32, i32), end: i32) -> bool {
+        let turns = self.end <= row;
+        if turns {
+            *self = Side::new(self.to, to, end);
+        }
+        turns
+    }
+}
+
+/// The spans between two edges, which are left at the row after the last.
+#[inline(always)]
+fn rows<W: Word>(rows: Range<i32>, window: Window, (left, right): &mut (Edge<W>, Edge<W>), mut draw: impl FnMut(Span)) {
+    for row in rows {
+        let (whole_left, whole_right) = (left.column(), right.column());
+        let span = Span {
+            row,
+            left: whole_left.max(window.left),
+            right: whole_right.min(window.right),
+            whole_left,
+            whole_right,
+        };
+        if span.left < span.right {
+            draw(span);
+        }
+        left.descend();
+        right.descend();
+    }
+}
+
+/// Any number of corners.
+#[inline(always)]
+fn scan_polygon<W: Word>(corners: &impl Corners, ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
     let count = corners.count();
     let mut top = 0;
     let mut lowest = i32::MIN;
+    let (mut leftmost, mut rightmost) = (i32::MAX, i32::MIN);
     for i in 0..count {
-        let (_, y) = corners.position(i);
+        let (x, y) = corners.position(i);
         lowest = lowest.max(y);
+        (leftmost, rightmost) = (leftmost.min(x), rightmost.max(x));
         if y < corners.position(top).1 {
             top = i;
         }
+    }
+    if is_beside(window, leftmost, rightmost) {
+        return;
     }
     let end = first_row(lowest).min(window.bottom);
     let mut row = first_row(corners.position(top).1).max(window.top);
@@ -138,22 +255,10 @@ pub fn scan<W: Word>(corners: &impl Corners, ccw: bool, window: Window, mut draw
             // certain to lie inside it.
             return;
         }
-        while row < stop {
-            let (whole_left, whole_right) = (left.edge.column(), right.edge.column());
-            let span = Span {
-                row,
-                left: whole_left.max(window.left),
-                right: whole_right.min(window.right),
-                whole_left,
-                whole_right,
-            };
-            if span.left < span.right {
-                draw(span);
-            }
-            left.edge.descend();
-            right.edge.descend();
-            row += 1;
-        }
+        let mut edges = (left.edge, right.edge);
+        rows(row..stop, window, &mut edges, &mut draw);
+        (left.edge, right.edge) = edges;
+        row = stop;
     }
 }
 

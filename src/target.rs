@@ -49,6 +49,19 @@ pub trait Target {
     /// The pixels of `row` from the window's left to its right; `row` is one of the window's. A shorter slice is allowed
     /// and loses what lies beyond its end.
     fn row(&mut self, row: i32) -> &mut [Self::Pixel];
+
+    /// The pixels `left..right` of `row`, all of them the window's: what [`row`](Self::row) gives of them, unless a target
+    /// knows a shorter way.
+    #[inline(always)]
+    fn span(&mut self, row: i32, left: i32, right: i32) -> &mut [Self::Pixel] {
+        // Wrapping keeps windows of any size from overflowing.
+        let skip = left.wrapping_sub(self.window().left) as u32 as usize;
+        let count = right.wrapping_sub(left) as u32 as usize;
+        self.row(row)
+            .get_mut(skip..)
+            .and_then(|rest| rest.get_mut(..count))
+            .unwrap_or_default()
+    }
 }
 
 /// A borrowed target, where several are put together in a tuple.
@@ -62,6 +75,10 @@ impl<C: Target + ?Sized> Target for &mut C {
     #[inline(always)]
     fn row(&mut self, row: i32) -> &mut [C::Pixel] {
         (**self).row(row)
+    }
+    #[inline(always)]
+    fn span(&mut self, row: i32, left: i32, right: i32) -> &mut [C::Pixel] {
+        (**self).span(row, left, right)
     }
 }
 
@@ -146,16 +163,13 @@ impl<P: Copy> Target for Buffer<'_, P> {
             .and_then(|rest| rest.get_mut(..width))
             .unwrap_or_default()
     }
-}
 
-/// The pixels of `target` that `span` covers; empty where the target's row is shorter than its window.
-#[inline(always)]
-pub(crate) fn pixels<'t, C: Target>(target: &'t mut C, window: Window, span: &crate::span::Span) -> &'t mut [C::Pixel] {
-    let row = target.row(span.row);
-    // A span lies on the window; wrapping keeps windows of any size from overflowing.
-    let skip = span.left.wrapping_sub(window.left) as u32 as usize;
-    let count = span.right.wrapping_sub(span.left) as u32 as usize;
-    row.get_mut(skip..)
-        .and_then(|rest| rest.get_mut(..count))
-        .unwrap_or_default()
+    #[inline(always)]
+    fn span(&mut self, row: i32, left: i32, right: i32) -> &mut [P] {
+        // Two bounds instead of the four by way of the row.
+        let start = (row.wrapping_sub(self.window.top) as usize).wrapping_mul(self.stride);
+        let start = start.wrapping_add(left.wrapping_sub(self.window.left) as u32 as usize);
+        let end = start.wrapping_add(right.wrapping_sub(left) as u32 as usize);
+        self.pixels.get_mut(start..end).unwrap_or_default()
+    }
 }

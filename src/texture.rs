@@ -52,6 +52,8 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use crate::error::Error;
+use crate::fragment::Fragment;
+use crate::varying::Varying;
 
 /// A colour of a texture: red, green, blue and alpha in 0…255. Alpha is not multiplied in; 255 is opaque.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -359,5 +361,53 @@ fn wrapped(index: i32, size: u16) -> u32 {
     } else {
         // Never `None`: a texture has no size 0.
         index.checked_rem_euclid(size as i32).unwrap_or(0) as u32
+    }
+}
+
+/// A fragment program: RGB565 texels of a repeated texture, the one that each pixel's sample lies in.
+///
+/// Texel (i, j) is `texels[j][i]` and holds i ≤ u < i + 1, j ≤ v < j + 1, with u and v in units of 2^-16 texel, from
+/// [`Perspective32`](crate::varying::Perspective32), [`Perspective`](crate::varying::Perspective) or
+/// [`Linear`](crate::varying::Linear). The sides are powers of two, so that a mask is all it takes to stay on the texture;
+/// others do not compile.
+///
+/// ```
+/// use fixel::{fragment::Fragment, texture::Tiled565, varying::Perspective32};
+/// static BOARD: [[u16; 2]; 2] = [[1, 2], [3, 4]];
+/// let board = Tiled565::<Perspective32<2>, 2, 2>::new(&BOARD);
+/// assert_eq!(board.shade([0x1_8000, 0], 0), Some(2));
+/// assert_eq!(board.shade([-1, 0x7_0000], 0), Some(4));
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Tiled565<'a, V, const WIDTH: usize, const HEIGHT: usize> {
+    texels: &'a [[u16; WIDTH]; HEIGHT],
+    varying: PhantomData<V>,
+}
+
+impl<'a, V, const WIDTH: usize, const HEIGHT: usize> Tiled565<'a, V, WIDTH, HEIGHT> {
+    /// Of rows of texels, from the top.
+    pub const fn new(texels: &'a [[u16; WIDTH]; HEIGHT]) -> Self {
+        const {
+            assert!(WIDTH.is_power_of_two() && HEIGHT.is_power_of_two());
+        }
+        Tiled565 {
+            texels,
+            varying: PhantomData,
+        }
+    }
+}
+
+impl<V, const WIDTH: usize, const HEIGHT: usize> Fragment for Tiled565<'_, V, WIDTH, HEIGHT>
+where
+    V: Varying<Values = [i32; 2]>,
+{
+    type Varying = V;
+    type Pixel = u16;
+
+    #[inline(always)]
+    fn shade(&self, [u, v]: [i32; 2], _below: u16) -> Option<u16> {
+        let (i, j) = ((u >> 16) as usize & (WIDTH - 1), (v >> 16) as usize & (HEIGHT - 1));
+        // Always there: what the bounds are checked against are constants.
+        self.texels.get(j).and_then(|row| row.get(i)).copied()
     }
 }

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use crate::clip::DepthRange;
 use crate::edge::{SUBPIXELS, first_row};
 use crate::error::Error;
-use crate::num::{Block, Wide, Word};
+use crate::num::{Block, Word};
 use crate::window::Window;
 
 /// Where on the picture the view volume's x and y of −1…1 go, and where the samples of the pixels lie.
@@ -94,66 +94,107 @@ impl<W: Word> Viewport<W> {
         self.scale.1 < 0
     }
 
-    /// The distances of a point with w > 0 to the four sides of the guard band, up to a common factor: all at least 0
-    /// where its position is within ±[`Word::GUARD`] px. Exact.
+    /// Whether the view volume lies within the guard band. Only half a pixel can be missing.
     #[inline]
-    pub(crate) fn guard_distance<T: Word>(&self, position: [T; 4], side: usize) -> T::Wide {
-        let [x, y, _, w] = position.map(T::widen);
-        let (coordinate, scale, center) = if side & 1 == 0 {
-            (x, self.scale.0, self.center.0)
-        } else {
-            (y, self.scale.1, self.center.1)
-        };
-        if side & 2 == 0 {
-            w.times_small(Self::LIMIT - center) - coordinate.times_small(scale)
-        } else {
-            w.times_small(Self::LIMIT + center) + coordinate.times_small(scale)
-        }
+    pub(crate) fn is_in_guard(&self) -> bool {
+        let within = |center: i32, scale: i32| center.abs() + scale.abs() <= Self::LIMIT;
+        within(self.center.0, self.scale.0) && within(self.center.1, self.scale.1)
+    }
+
+    /// The planes of the guard band, right, below, left and above where y runs downwards: all distances of a point with w > 0
+    /// are at least 0 where its position is within ±[`Word::GUARD`] px. Exact.
+    pub(crate) fn guard_planes<T: Word>(&self) -> [[T; 4]; 4] {
+        let ((x, y), (center_x, center_y)) = (self.scale, self.center);
+        [
+            [-x, 0, 0, Self::LIMIT - center_x],
+            [0, -y, 0, Self::LIMIT - center_y],
+            [x, 0, 0, Self::LIMIT + center_x],
+            [0, y, 0, Self::LIMIT + center_y],
+        ]
+        .map(|plane| plane.map(T::from_i32))
     }
 
     /// Screen position in subpixels, rounded once to the nearest (a tie upwards), and depth in units of 2^-15 step of the
     /// 16-bit buffer. `None` unless w > 0. Positions are moved into the guard band and depths into their range, which the
     /// clipped ones leave by no more than rounding.
-    #[inline]
     pub fn place<T: Word>(&self, position: Block<T, 4>, range: DepthRange) -> Option<(i32, i32, i32)> {
         self.place_within(position, range, Self::LIMIT)
     }
 
     /// As [`place`](Self::place), but positions are moved to within ±`limit` subpixels.
-    #[inline]
     pub(crate) fn place_within<T: Word>(
         &self,
         position: Block<T, 4>,
         range: DepthRange,
         limit: i32,
     ) -> Option<(i32, i32, i32)> {
-        let [x, y, z, w] = position.mantissas().map(T::widen);
-        if w <= T::Wide::ZERO {
+        let [x, y, z, w] = position.mantissas();
+        if w <= T::ZERO {
             return None;
         }
-        let twice = w + w;
-        let coordinate = |v: T::Wide, scale, center| {
-            let numerator = v.times_small(scale) + w.times_small(center);
-            let rounded = (numerator + numerator + w).div_floor(twice);
-            let limit = T::from_i32(limit).widen();
-            rounded.max(-limit).min(limit).narrow().low_i32()
+        let divisor = w.twice();
+        let coordinate = |v: T, scale: i32, center: i32| {
+            let from_center = rounded(v, scale, w);
+            let numerator = from_center + T::from_i32(center).times(w) + T::from_i32(center).times(w);
+            // So far out that the quotient might not fit.
+            let far = T::from_i32(FARTHEST).times(w) + T::from_i32(FARTHEST).times(w);
+            if numerator >= far {
+                return limit;
+            }
+            if numerator < -far {
+                return -limit;
+            }
+            T::large_quotient(numerator, &divisor).clamp(-limit, limit)
         };
-        // 65535·2^15 per unit of z/w over 0…1.
-        const FULL: i32 = 65535 << 15;
         let depth = match range {
-            DepthRange::ZeroToOne => z.times_small(FULL).div_floor(w),
-            DepthRange::MinusOneToOne => (z + w).times_small(FULL).div_floor(twice),
-            DepthRange::Unlimited => T::Wide::ZERO,
+            DepthRange::ZeroToOne => z.max(T::ZERO).min(w),
+            DepthRange::MinusOneToOne => z.max(-w).min(w),
+            DepthRange::Unlimited => T::ZERO,
         };
-        let depth = depth
-            .max(T::Wide::ZERO)
-            .min(T::from_i32(FULL).widen())
-            .narrow()
-            .low_i32();
-        let (x, y) = (
+        Some((
             coordinate(x, self.scale.0, self.center.0),
             coordinate(y, self.scale.1, self.center.1),
-        );
-        Some((x, y, depth))
+            depth_of(depth, w, &divisor, range),
+        ))
+    }
+
+    /// As [`place`](Self::place), for a position whose w is positive and that lies in the guard band and the range: nothing
+    /// has to be moved.
+    #[inline]
+    pub(crate) fn place_inside<T: Word>(&self, position: Block<T, 4>, range: DepthRange) -> (i32, i32, i32) {
+        let [x, y, z, w] = position.mantissas();
+        let divisor = w.twice();
+        let coordinate = |v, scale, center| T::quotient(rounded(v, scale, w), &divisor) + center;
+        (
+            coordinate(x, self.scale.0, self.center.0),
+            coordinate(y, self.scale.1, self.center.1),
+            depth_of(z, w, &divisor, range),
+        )
+    }
+}
+
+/// Subpixels beyond which nothing is divided; just short of 2^31.
+const FARTHEST: i32 = i32::MAX - 16;
+
+/// Twice a coordinate's distance from the center, times w, and the half that makes rounding down round to nearest.
+#[inline(always)]
+fn rounded<T: Word>(v: T, scale: i32, w: T) -> T::Wide {
+    let distance = v.times(T::from_i32(scale));
+    distance + distance + w.widen()
+}
+
+/// Depth in units of 2^-15 step, for a z in the range.
+#[inline(always)]
+fn depth_of<T: Word>(z: T, w: T, twice_w: &T::Divisor, range: DepthRange) -> i32 {
+    // 65535·2^15 per unit of z/w over 0…1.
+    let full = T::from_i32(65535 << 15);
+    match range {
+        DepthRange::ZeroToOne => {
+            let depth = z.times(full);
+            T::large_quotient(depth + depth, twice_w)
+        }
+        // Each of the two products is below 2^61.
+        DepthRange::MinusOneToOne => T::large_quotient(z.times(full) + w.times(full), twice_w),
+        DepthRange::Unlimited => 0,
     }
 }

@@ -57,7 +57,9 @@ fn check<W: Word>(case: &Case, corner_depths: [i32; 3]) -> Result<(), TestCaseEr
         );
         let (numerator, area) = naive::value(case.corners, exact, x, y);
         let error = (stored as i128 * STEP * area - numerator) as f64 / area as f64;
-        let stated = stated_error(case.corners, exact, (x, y)) + STEP as f64 / 2.0;
+        // Triangles of a usual shape and size are interpolated in 32-bit words: a quarter of a step.
+        let slopes = STEP as f64 / 4.0;
+        let stated = stated_error(case.corners, exact, (x, y)) + STEP as f64 / 2.0 + slopes;
         prop_assert!(error.abs() <= stated, "({}, {}) is {} off, not {}", x, y, error, stated);
         if W::GUARD == <i32 as Word>::GUARD {
             prop_assert!(error.abs() <= STEP as f64, "({}, {}) is {} off", x, y, error);

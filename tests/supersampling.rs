@@ -258,7 +258,7 @@ impl Fragment for Blended {
 const WIDTH: usize = 37;
 const HEIGHT: usize = 29;
 
-fn triangles<const K: usize>(n: usize, varying: impl Fn(&mut Random) -> Linear<K>) -> Vec<[Corner<Linear<K>>; 3]> {
+fn triangles<V>(n: usize, varying: impl Fn(&mut Random) -> V) -> Vec<[Corner<V>; 3]> {
     let mut random = Random(5);
     let mut corner = || {
         let [x, y] = [WIDTH, HEIGHT].map(|size| (random.next() % (size * n * 3 / 2) as u64) as i16 - 4);

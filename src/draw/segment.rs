@@ -7,10 +7,9 @@ use crate::num::Word;
 use crate::screen::{Corner, Shape};
 use crate::segment::{Axis, Nearest, Pairs, WHOLE};
 use crate::span::Span;
-use crate::target::{Target, pixels};
+use crate::target::Target;
 use crate::varying::Varying;
 use crate::view::{Carried, Vertex, View};
-use crate::window::Window;
 
 use super::depth_plane;
 
@@ -146,16 +145,13 @@ where
     S: Shape<Varying = F::Varying>,
     F: Fragment<Pixel = C::Pixel>,
 {
-    let window = color.window();
-    let line = Nearest::<W>::new(ends, depth.limit(window));
+    let line = Nearest::<W>::new(ends, depth.limit(color.window()));
     let Some(mut along) = line.walk().span().and_then(|span| Along::new::<D>(ends, &span)) else {
         return;
     };
     for at in line {
         let values = || along.values();
-        plot(color, depth, window, at, along.steps(), |below| {
-            fragment.shade(values(), below)
-        });
+        plot(color, depth, at, along.steps(), |below| fragment.shade(values(), below));
         along.advance();
     }
 }
@@ -170,8 +166,7 @@ where
     S: Shape<Varying = F::Varying>,
     F: Antialiased<Pixel = C::Pixel>,
 {
-    let window = color.window();
-    let limit = depth.limit(window);
+    let limit = depth.limit(color.window());
     let line = Pairs::<W>::new(ends, limit);
     let Some(mut along) = line.walk().span().and_then(|span| Along::new::<D>(ends, &span)) else {
         return;
@@ -180,7 +175,7 @@ where
         for (at, part) in [(pair.first, WHOLE - pair.weight), (pair.second, pair.weight)] {
             if limit.contains(at) {
                 let values = || along.values();
-                plot(color, depth, window, at, along.steps(), |below| {
+                plot(color, depth, at, along.steps(), |below| {
                     fragment.shade_part(values(), part, below)
                 });
             }
@@ -235,7 +230,6 @@ impl<V: Varying> Along<V> {
 fn plot<C: Target, D: Depth>(
     color: &mut C,
     depth: &mut D,
-    window: Window,
     (x, y): (i32, i32),
     steps: u32,
     shade: impl Fn(C::Pixel) -> Option<C::Pixel>,
@@ -247,7 +241,7 @@ fn plot<C: Target, D: Depth>(
         whole_left: x,
         whole_right: x + 1,
     };
-    let pixels = pixels(color, window, &pixel).iter_mut();
+    let pixels = color.span(y, x, x + 1).iter_mut();
     for (pixel, cell) in pixels.zip(depth.cells(&pixel)) {
         if D::test(cell, steps)
             && let Some(new) = shade(*pixel)

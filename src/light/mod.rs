@@ -42,7 +42,10 @@
 //! # Ok::<(), fixel::error::Error>(())
 //! ```
 
+mod sunlight;
 pub mod world;
+
+pub use sunlight::Sunlight;
 
 use heapless::Vec;
 

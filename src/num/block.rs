@@ -49,17 +49,10 @@ impl<T: Word, const N: usize> Block<T, N> {
     /// The numbers `values[i] · 2^exponent`, rounded to nearest at the shared scale.
     #[inline]
     pub fn from_wide(values: [T::Wide; N], exponent: i32) -> Self {
-        let bits = values.iter().fold(0, |most, v| v.bit_length().max(most));
+        let (mantissas, bits) = T::Wide::normalized(values);
         if bits == 0 {
             return Self::ZERO;
         }
-        let mantissas = if bits > T::BITS {
-            let shift = bits - T::BITS;
-            // Halves upwards, without adding the half to numbers that fill their word.
-            values.map(|v| (((v >> (shift - 1)) + T::ONE.widen()) >> 1).narrow())
-        } else {
-            values.map(|v| (v << (T::BITS - bits)).narrow())
-        };
         Block {
             mantissas,
             exponent: exponent.saturating_add(bits as i32 - T::BITS as i32),

@@ -6,6 +6,7 @@
 
 mod block;
 mod power;
+mod quotient;
 mod recip;
 mod root;
 mod trig;
@@ -13,6 +14,8 @@ mod word;
 
 pub use block::{Block, Scaled};
 pub use power::power;
+pub use quotient::Divisor;
+pub(crate) use recip::near_reciprocal;
 pub use recip::reciprocal;
 pub use root::{dot, reciprocal_square_root, square_root, unit, unit_wide};
 #[cfg(feature = "micromath")]

@@ -35,6 +35,22 @@ pub fn reciprocal(divisor: u32) -> u64 {
     x
 }
 
+/// 2^62 / `divisor` from below, to 2^-29 of itself, for a normalised divisor in 2^31…2^32−1; the result lies in 2^30…2^31−1.
+///
+/// As [`reciprocal`], in words of 32 bits and without the last comparison: 13 instructions on Cortex-M4.
+#[inline]
+pub(crate) fn near_reciprocal(divisor: u32) -> i32 {
+    let seed = SEEDS.get(((divisor >> 24) & 127) as usize).copied().unwrap_or(u16::MAX);
+    let mut y = (seed as i32) << 15;
+    for _ in 0..2 {
+        // 1 − d·y in units of 2^-30, never too large: y stays below the reciprocal, that is below 2^31.
+        let product = ((y as u64 * divisor as u64) >> 32) as i32;
+        let error = ((1 << 30) - 1i32).wrapping_sub(product);
+        y = y.wrapping_add(((y as i64 * (error << 2) as i64) >> 32) as i32);
+    }
+    y
+}
+
 /// seed·2^16 ≈ 2^63 / divisor for the divisors that share their top eight bits, 128 + i.
 const SEEDS: [u16; 128] = {
     let mut seeds = [0; 128];

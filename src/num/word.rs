@@ -1,7 +1,9 @@
 //! The two word sizes that the geometry is generic over.
 
 use core::fmt::Debug;
-use core::ops::{Add, Mul, Neg, Shl, Shr, Sub};
+use core::ops::{Add, BitAnd, Mul, Neg, Shl, Shr, Sub};
+
+use super::quotient::Divisor;
 
 mod sealed {
     pub trait Sealed {}
@@ -30,12 +32,15 @@ pub trait Word:
     + Sub<Output = Self>
     + Neg<Output = Self>
     + Mul<Output = Self>
+    + BitAnd<Output = Self>
     + Shl<u32, Output = Self>
     + Shr<u32, Output = Self>
     + 'static
 {
     /// Twice as wide: exact products.
     type Wide: Wide<Word = Self>;
+    /// What several numbers are divided by.
+    type Divisor: Copy;
     /// Bits of a mantissa.
     const BITS: u32;
     /// Largest coordinate of a screen position in pixels, either sign: what the edge walk of this word proves
@@ -58,10 +63,18 @@ pub trait Word:
     fn from_q62(value: i64) -> Self;
     /// The same number with twice the width.
     fn widen(self) -> Self::Wide;
+    /// All bits set for a negative number, none for any other.
+    fn sign(self) -> Self;
     /// Exact product.
     fn times(self, other: Self) -> Self::Wide;
     /// Quotient rounded down and remainder in 0…divisor−1, for a positive divisor; 0, 0 for any other.
     fn div_rem_floor(self, divisor: Self) -> (Self, Self);
+    /// Twice this word, from 1 to 2^[`BITS`](Word::BITS), to divide by.
+    fn twice(self) -> Self::Divisor;
+    /// numerator/divisor rounded down, where that lies within ±2^26.
+    fn quotient(numerator: Self::Wide, divisor: &Self::Divisor) -> i32;
+    /// numerator/divisor rounded down, where that lies within ±(2^31 − 16).
+    fn large_quotient(numerator: Self::Wide, divisor: &Self::Divisor) -> i32;
 }
 
 /// Twice the width of a [`Word`].
@@ -82,6 +95,9 @@ pub trait Wide:
     const ZERO: Self;
     /// Bits of the magnitude: 0 for 0, 3 for ±5.
     fn bit_length(self) -> u32;
+    /// All numbers times the same power of two, so that the largest has [`Word::BITS`] bits, halves rounded upwards; and
+    /// the bits that the largest had. All 0 for all 0.
+    fn normalized<const N: usize>(values: [Self; N]) -> ([Self::Word; N], u32);
     /// The low half; the caller has shown that the rest is sign.
     fn narrow(self) -> Self::Word;
     /// Quotient rounded down, for a positive divisor; 0 for any other.
@@ -93,9 +109,10 @@ pub trait Wide:
 }
 
 macro_rules! word {
-    ($word:ty, $wide:ty, $bits:literal, $guard:literal, $sines:expr) => {
+    ($word:ty, $wide:ty, $divisor:ty, $bits:literal, $guard:literal, $sines:expr) => {
         impl Word for $word {
             type Wide = $wide;
+            type Divisor = $divisor;
             const BITS: u32 = $bits;
             const GUARD: i32 = $guard;
             const ZERO: Self = 0;
@@ -123,16 +140,37 @@ macro_rules! word {
                 self as $wide
             }
             #[inline(always)]
+            fn sign(self) -> Self {
+                self >> (<$word>::BITS - 1)
+            }
+            #[inline(always)]
             fn times(self, other: Self) -> $wide {
                 self as $wide * other as $wide
             }
             #[inline(always)]
             fn div_rem_floor(self, divisor: Self) -> (Self, Self) {
-                // The checked forms have no panic path; a positive divisor always takes the `Some`.
-                match self.checked_div_euclid(divisor) {
-                    Some(quotient) => (quotient, self.wrapping_sub(quotient.wrapping_mul(divisor))),
+                // floor(a / d) of a negative a is the complement of floor(−(a + 1) / d), where −(a + 1) is the complement of a:
+                // an unsigned division, which rounds down as it is. The checked form has no panic path.
+                let sign = self.sign();
+                match (self ^ sign).cast_unsigned().checked_div(divisor.cast_unsigned()) {
+                    Some(quotient) => {
+                        let quotient = quotient.cast_signed() ^ sign;
+                        (quotient, self.wrapping_sub(quotient.wrapping_mul(divisor)))
+                    }
                     None => (0, 0),
                 }
+            }
+            #[inline(always)]
+            fn twice(self) -> $divisor {
+                <$divisor>::new((self as u64).wrapping_mul(2) as _)
+            }
+            #[inline(always)]
+            fn quotient(numerator: $wide, divisor: &$divisor) -> i32 {
+                divisor.floor_small(numerator)
+            }
+            #[inline(always)]
+            fn large_quotient(numerator: $wide, divisor: &$divisor) -> i32 {
+                divisor.floor(numerator)
             }
         }
 
@@ -143,6 +181,30 @@ macro_rules! word {
             #[inline(always)]
             fn bit_length(self) -> u32 {
                 <$wide>::BITS - self.unsigned_abs().leading_zeros()
+            }
+            #[inline(always)]
+            fn normalized<const N: usize>(values: [Self; N]) -> ([$word; N], u32) {
+                const WORD: u32 = <$word>::BITS;
+                // The longest of the magnitudes is as long as all of them laid over one another.
+                let all = values.iter().fold(0, |all, v| all | v.unsigned_abs());
+                let bits = <$wide>::BITS - all.leading_zeros();
+                let mut mantissas = [0; N];
+                // One bit more than a mantissa has, at the top of the upper half, which rounds as it is cut off. Only numbers
+                // that fill their word have no room for the sign that way.
+                let fills = bits == <$wide>::BITS;
+                let up = if fills {
+                    0
+                } else {
+                    (<$wide>::BITS - 1 - bits) & (<$wide>::BITS - 1)
+                };
+                for (mantissa, v) in mantissas.iter_mut().zip(values) {
+                    let mut top = ((v << up) >> WORD) as $word;
+                    if fills {
+                        top >>= 1;
+                    }
+                    *mantissa = (top >> 1) + (top & 1);
+                }
+                (mantissas, bits)
             }
             #[inline(always)]
             fn narrow(self) -> $word {
@@ -164,5 +226,21 @@ macro_rules! word {
     };
 }
 
-word!(i32, i64, 30, 4096, super::trig::SINES_30);
-word!(i64, i128, 62, 32768, super::trig::SINES_62);
+/// Divides as the machine does: words of 64 bits are for machines that can.
+#[derive(Debug, Clone, Copy)]
+pub struct Plain(i128);
+
+impl Plain {
+    fn new(divisor: u64) -> Self {
+        Plain(divisor as i128)
+    }
+    fn floor_small(self, numerator: i128) -> i32 {
+        Wide::div_floor(numerator, self.0) as i32
+    }
+    fn floor(self, numerator: i128) -> i32 {
+        Wide::div_floor(numerator, self.0) as i32
+    }
+}
+
+word!(i32, i64, Divisor, 30, 4096, super::trig::SINES_30);
+word!(i64, i128, Plain, 62, 32768, super::trig::SINES_62);

@@ -16,7 +16,7 @@ use crate::num::{Block, Scaled, Word};
 /// ```
 pub fn plane_distance<T: Word>(plane: Block<T, 4>, point: Block<T, 4>) -> Scaled<T> {
     let exponent = plane.exponent().saturating_add(point.exponent());
-    Scaled::from_wide([distance(&plane, point.mantissas())], exponent)
+    Scaled::from_wide([distance(plane.mantissas(), point.mantissas())], exponent)
 }
 
 /// What of a convex polygon lies inside a plane, in `cut`, which is emptied first: whether it had room for all corners,

@@ -1,6 +1,6 @@
 //! From clip space to the screen: clip planes, culling, the guard band, the division.
 
-use crate::clip::{Behind, ClipCorner, DepthRange, Polygon, cut, to_view};
+use crate::clip::{Behind, ClipCorner, DepthRange, Polygon, cut, depth_plane, to_view};
 use crate::num::{Block, Scaled, Wide, Word};
 use crate::screen::Shape;
 use crate::span::{Corners, doubled_area};
@@ -99,9 +99,6 @@ pub(super) fn triangle<I, T, W, V, const N: usize>(
     let Some(clipped) = state.planes.clip(positions) else {
         return;
     };
-    if state.culling != Culling::Off && !state.culling.keeps(is_front(&clipped, &state.viewport)) {
-        return;
-    }
     let vertices = Given {
         w: positions.map(w_of),
         values,
@@ -109,6 +106,9 @@ pub(super) fn triangle<I, T, W, V, const N: usize>(
     let is_whole = || clipped.len() == 3 && clipped.iter().zip(&positions).all(|(corner, p)| corner.position == *p);
     if V::WANTS.fan && !is_whole() {
         // Values are linear in clip space up to here, and over the screen from here on: the fan, each part as if given.
+        if !keeps_whole(state, &clipped) {
+            return;
+        }
         for i in 2..clipped.len() {
             let (Some(a), Some(b), Some(c)) = (clipped.get(0), clipped.get(i - 1), clipped.get(i)) else {
                 return;
@@ -119,10 +119,10 @@ pub(super) fn triangle<I, T, W, V, const N: usize>(
                 w: corners.map(|corner| w_of(corner.position)),
             };
             let part = Polygon::of_vertices(corners.map(|corner| corner.position));
-            in_range(part, &vertices, &state.viewport, wanted, &mut draw);
+            in_range(part, &vertices, &state.viewport, Culling::Off, wanted, &mut draw);
         }
     } else {
-        in_range(clipped, &vertices, &state.viewport, wanted, &mut draw);
+        in_range(clipped, &vertices, &state.viewport, state.culling, wanted, &mut draw);
     }
 }
 
@@ -164,12 +164,25 @@ where
     place(&line, &vertices, &state.viewport, wanted, shift)
 }
 
-/// Which way the corners of a clipped polygon run on the screen.
-#[inline(never)]
-fn is_front<T: Word, W: Word, const N: usize>(clipped: &Polygon<ClipCorner<T>, N>, viewport: &Viewport<W>) -> bool {
-    let Some(polygon) = to_view(clipped.clone(), viewport, DepthRange::Unlimited, Behind::Cut) else {
-        return false;
-    };
+/// Whether a clipped polygon is drawn, where it is not placed on the screen as a whole.
+#[cold]
+fn keeps_whole<I, T: Word, W: Word, const N: usize>(
+    state: &State<I, T, W, N>,
+    clipped: &Polygon<ClipCorner<T>, N>,
+) -> bool {
+    if state.culling == Culling::Off {
+        return true;
+    }
+    let polygon = to_view(clipped.clone(), &state.viewport, DepthRange::Unlimited, Behind::Cut);
+    polygon.is_some_and(|polygon| keeps(state.culling, &polygon, &state.viewport))
+}
+
+/// Whether a polygon is drawn that [`to_view`] has made.
+fn keeps<T: Word, W: Word, const N: usize>(
+    culling: Culling,
+    polygon: &Polygon<ClipCorner<T>, N>,
+    viewport: &Viewport<W>,
+) -> bool {
     let nothing = Given {
         w: [Scaled::ZERO; 3],
         values: [(); 3],
@@ -179,12 +192,18 @@ fn is_front<T: Word, W: Word, const N: usize>(clipped: &Polygon<ClipCorner<T>, N
         beyond: false,
         inverse_w: false,
     };
-    let Some(piece) = place::<T, W, (), N>(&polygon, &nothing, viewport, wanted, 0) else {
-        return false;
-    };
-    // Positive is counter-clockwise with rows downwards, as seen where y is up.
-    let area = doubled_area(&piece);
-    if viewport.is_y_up() { area > 0 } else { area < 0 }
+    let piece = place::<T, W, (), N>(polygon, &nothing, viewport, wanted, 0);
+    piece.is_some_and(|piece| keeps_piece(culling, &piece, viewport))
+}
+
+/// Whether a polygon is drawn, by the way its corners run on the screen.
+#[inline]
+fn keeps_piece<W: Word>(culling: Culling, piece: &impl Corners, viewport: &Viewport<W>) -> bool {
+    culling == Culling::Off || {
+        // Positive is counter-clockwise with rows downwards, as seen where y is up.
+        let area = doubled_area(piece);
+        culling.keeps(if viewport.is_y_up() { area > 0 } else { area < 0 })
+    }
 }
 
 fn beyond_range<T: Word, const N: usize>(polygon: &Polygon<ClipCorner<T>, N>) -> bool {
@@ -200,6 +219,7 @@ fn in_range<T, W, V, const N: usize>(
     polygon: Polygon<ClipCorner<T>, N>,
     vertices: &Given<T, V::Vertex>,
     viewport: &Viewport<W>,
+    culling: Culling,
     wanted: Wanted,
     draw: &mut impl FnMut(&Piece<V, N>),
 ) where
@@ -210,37 +230,32 @@ fn in_range<T, W, V, const N: usize>(
     let Some(polygon) = to_view(polygon, viewport, DepthRange::Unlimited, Behind::Cut) else {
         return;
     };
+    if !wanted.depth || !beyond_range(&polygon) {
+        if let Some(piece) = place(&polygon, vertices, viewport, wanted, 0)
+            && keeps_piece(culling, &piece, viewport)
+        {
+            draw(&piece);
+        }
+        return;
+    }
+    if culling != Culling::Off && !keeps(culling, &polygon, viewport) {
+        return;
+    }
     let mut emit = |polygon: &Polygon<ClipCorner<T>, N>| {
         if let Some(piece) = place(polygon, vertices, viewport, wanted, 0) {
             draw(&piece);
         }
     };
-    if !wanted.depth || !beyond_range(&polygon) {
-        emit(&polygon);
-        return;
-    }
-    let near = |sign: bool| {
-        move |[_, _, z, w]: [T; 4]| {
-            let distance = z.widen() + w.widen();
-            if sign { distance } else { -distance }
-        }
-    };
-    let far = |sign: bool| {
-        move |[_, _, z, w]: [T; 4]| {
-            let distance = w.widen() - z.widen();
-            if sign { distance } else { -distance }
-        }
-    };
     let mut before = polygon.clone();
-    cut(&mut before, near(false));
+    cut(&mut before, depth_plane(-1, -1));
     emit(&before);
     let mut within = polygon.clone();
-    cut(&mut within, near(true));
-    cut(&mut within, far(true));
+    cut(&mut within, depth_plane(1, 1));
+    cut(&mut within, depth_plane(-1, 1));
     emit(&within);
     if wanted.beyond {
         let mut beyond = polygon;
-        cut(&mut beyond, far(false));
+        cut(&mut beyond, depth_plane(1, -1));
         emit(&beyond);
     }
 }
@@ -284,7 +299,7 @@ where
             position: (x, y),
             depth,
             inverse: inverse.clamp(0, 1 << 30) as i32,
-            varying: V::mix(vertices.values, &weigh.weights(corner)),
+            varying: V::mix(vertices.values, &weigh.weights::<V>(corner)),
         })
     };
     let corners: Polygon<_, N> = polygon.iter().filter_map(corner).collect();

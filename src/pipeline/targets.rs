@@ -5,7 +5,7 @@ use core::slice::IterMut;
 
 use crate::blend::{Blending, Replace, Rgba};
 use crate::span::Span;
-use crate::target::{Target, pixels};
+use crate::target::Target;
 use crate::window::Window;
 
 use super::format::PixelFormat;
@@ -68,8 +68,7 @@ impl<C: Target> Attachment for C {
     }
     #[inline(always)]
     fn cells(&mut self, span: &Span) -> IterMut<'_, C::Pixel> {
-        let window = self.window();
-        pixels(self, window, span).iter_mut()
+        self.span(span.row, span.left, span.right).iter_mut()
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{in_front, w_of};
 use crate::clip::{ClipCorner, Polygon};
 use crate::num::{Block, Scaled, Word};
-use crate::varying::{Linear, LinearFan, Perspective, Varying};
+use crate::varying::{Color565, Linear, LinearFan, Perspective, Varying};
 
 /// A varying that can be mixed from what three vertices carry.
 pub trait Carried: Varying {
@@ -13,6 +13,17 @@ pub trait Carried: Varying {
     const WANTS: Wants;
     /// At a corner of the polygon.
     fn mix(vertices: [Self::Vertex; 3], weights: &Weights) -> Self;
+    /// At the three vertices, of a triangle that nothing was cut from. The weights are what [`mix`](Self::mix) wants; not made
+    /// where they are not looked at.
+    #[inline(always)]
+    fn whole(vertices: [Self::Vertex; 3], weights: impl Fn() -> [Weights; 3]) -> [Self; 3] {
+        let [a, b, c] = weights();
+        [
+            Self::mix(vertices, &a),
+            Self::mix(vertices, &b),
+            Self::mix(vertices, &c),
+        ]
+    }
     /// What a vertex would carry where the triangle leaves the space before the camera.
     fn between(vertices: [Self::Vertex; 3], weights: &Weights) -> Self::Vertex;
 }
@@ -92,9 +103,30 @@ impl<const N: usize> Carried for Linear<N> {
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         Linear(Self::between(vertices, weights))
     }
+    #[inline(always)]
+    fn whole([a, b, c]: [Self::Vertex; 3], _: impl Fn() -> [Weights; 3]) -> [Self; 3] {
+        [Linear(a), Linear(b), Linear(c)]
+    }
     #[inline]
     fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
         weights.pick(vertices).unwrap_or_else(|| sum(weights.screen, vertices))
+    }
+}
+
+impl Carried for Color565 {
+    type Vertex = [i32; 3];
+    const WANTS: Wants = Wants::SCREEN;
+    #[inline]
+    fn mix(vertices: [[i32; 3]; 3], weights: &Weights) -> Self {
+        Color565(Self::between(vertices, weights))
+    }
+    #[inline(always)]
+    fn whole([a, b, c]: [Self::Vertex; 3], _: impl Fn() -> [Weights; 3]) -> [Self; 3] {
+        [Color565(a), Color565(b), Color565(c)]
+    }
+    #[inline]
+    fn between(vertices: [[i32; 3]; 3], weights: &Weights) -> [i32; 3] {
+        Linear::<3>::between(vertices, weights)
     }
 }
 
@@ -107,6 +139,10 @@ impl<const N: usize> Carried for LinearFan<N> {
     #[inline]
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         LinearFan(Self::between(vertices, weights))
+    }
+    #[inline(always)]
+    fn whole([a, b, c]: [Self::Vertex; 3], _: impl Fn() -> [Weights; 3]) -> [Self; 3] {
+        [LinearFan(a), LinearFan(b), LinearFan(c)]
     }
     #[inline]
     fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
@@ -156,6 +192,12 @@ impl<A: Carried, B: Carried> Carried for (A, B) {
     fn mix(vertices: [Self::Vertex; 3], weights: &Weights) -> Self {
         let (first, second) = (vertices.map(|v| v.0), vertices.map(|v| v.1));
         (A::mix(first, weights), B::mix(second, weights))
+    }
+    #[inline(always)]
+    fn whole(vertices: [Self::Vertex; 3], weights: impl Fn() -> [Weights; 3]) -> [Self; 3] {
+        let [a, b, c] = A::whole(vertices.map(|v| v.0), &weights);
+        let [x, y, z] = B::whole(vertices.map(|v| v.1), &weights);
+        [(a, x), (b, y), (c, z)]
     }
     #[inline]
     fn between(vertices: [Self::Vertex; 3], weights: &Weights) -> Self::Vertex {
@@ -223,7 +265,21 @@ impl<T: Word> Weigh<T> {
         }
     }
 
-    pub(crate) fn weights(&self, corner: &ClipCorner<T>) -> Weights {
+    /// Those of a corner. Where nothing is wanted, nothing is compiled.
+    #[inline(always)]
+    pub(crate) fn weights<V: Carried>(&self, corner: &ClipCorner<T>) -> Weights {
+        if V::WANTS.screen || V::WANTS.space {
+            return self.shares(corner);
+        }
+        Weights {
+            screen: [0; 3],
+            space: [0; 3],
+            vertex: None,
+            affine: true,
+        }
+    }
+
+    fn shares(&self, corner: &ClipCorner<T>) -> Weights {
         let on_screen = if self.wants.screen || (self.wants.space && self.affine) {
             over_screen(corner, self.vertex_w)
         } else {
@@ -243,6 +299,31 @@ impl<T: Word> Weigh<T> {
             affine: self.affine,
         }
     }
+}
+
+/// The weights of a triangle's own corners, before the camera all of them: what [`Weigh`] makes of them.
+pub(super) fn at_vertices<T: Word>(w: [Scaled<T>; 3]) -> [Weights; 3] {
+    let mut weights = [0, 1, 2].map(|i| Weights {
+        screen: [0; 3],
+        space: [0; 3],
+        vertex: Some(i),
+        affine: true,
+    });
+    let [a, b, c] = w;
+    if a == b && b == c {
+        return weights;
+    }
+    // Of three weights over w two are 0.
+    let inverses = w.map(|w| Scaled::from_integer(1).over(w).unwrap_or(Scaled::ZERO));
+    let magnitudes = inverses.map(|s| s.exponent().saturating_add(T::BITS as i32));
+    let largest = magnitudes.into_iter().fold(i32::MIN, i32::max);
+    for (i, (weights, inverse)) in weights.iter_mut().zip(inverses).enumerate() {
+        weights.affine = false;
+        if let Some(own) = weights.space.get_mut(i) {
+            *own = share(inverse.scaled(largest.saturating_neg()));
+        }
+    }
+    weights
 }
 
 /// The vertex that a corner is.

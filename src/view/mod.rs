@@ -3,6 +3,7 @@
 mod carried;
 mod line;
 mod point;
+mod ready;
 
 use core::cmp::Ordering;
 
@@ -17,6 +18,7 @@ pub use carried::{Carried, Wants, Weights};
 pub(crate) use carried::{Weigh, in_clip_space};
 use carried::{at_cut, whole};
 pub use line::ProjectedLine;
+pub use ready::{Assembled, ScreenVertex, Triangle};
 
 /// Which triangles are drawn, by the way their corners run on the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,6 +29,18 @@ pub enum Cull {
     Clockwise,
     /// Only those that run clockwise as seen.
     CounterClockwise,
+}
+
+impl Cull {
+    /// Whether what has this [`doubled_area`] is drawn.
+    #[inline(always)]
+    fn keeps(self, area: i64) -> bool {
+        match self {
+            Cull::Nothing => area != 0,
+            Cull::Clockwise => area > 0,
+            Cull::CounterClockwise => area < 0,
+        }
+    }
 }
 
 /// How vertices in eye space become polygons on the screen. `T` is the word of positions, `W` of the edge walk, N the most
@@ -77,7 +91,7 @@ pub struct Vertex<T, A> {
 }
 
 /// A polygon on the screen and what its corners carry.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Projected<V, const N: usize> {
     corners: Polygon<ProjectedCorner<V>, N>,
     first: ProjectedCorner<V>,
@@ -292,13 +306,7 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
             corners,
         };
 
-        let area = doubled_area(&projected);
-        let drawn = match self.cull {
-            Cull::Nothing => area != 0,
-            Cull::Clockwise => area > 0,
-            Cull::CounterClockwise => area < 0,
-        };
-        drawn.then_some(projected)
+        self.cull.keeps(doubled_area(&projected)).then_some(projected)
     }
 
     /// The corners on the screen of what is left of a polygon, or of a line, in clip space.
@@ -312,7 +320,7 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         let weigh = Weigh::new(&polygon, vertex_w, V::WANTS);
         let place = |corner: &ClipCorner<T>| {
             let (x, y, depth) = self.viewport.place(corner.position, self.depth_range)?;
-            let varying = V::mix(carried, &weigh.weights(corner));
+            let varying = V::mix(carried, &weigh.weights::<V>(corner));
             Some(ProjectedCorner {
                 position: (x, y),
                 depth,

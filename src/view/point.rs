@@ -10,7 +10,7 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
     /// Where a point in eye space lies on the screen, rounded once to the nearest subpixel (a tie upwards), and how deep.
     ///
     /// `None` where it is outside a user plane or the depth range, both decided exactly, where w = 0, and where w < 0 is
-    /// [cut](Behind::Cut). The guard band does not count: a position beyond ±2^23 px is moved there, which is so far out
+    /// [cut](Behind::Cut). The guard band does not count: a position beyond ±2^23 px, less 1/15 px, is moved there, which is so far out
     /// that no square or disc around it reaches a picture.
     ///
     /// ```

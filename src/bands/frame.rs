@@ -1,0 +1,134 @@
+//! What a scene is submitted to.
+
+use super::pool::{Bins, sample_rows};
+use super::{Cells, DepthTest};
+use crate::draw;
+use crate::fragment::Fragment;
+use crate::mesh::Index;
+use crate::num::Word;
+use crate::screen::{Corner, Position, Shape, SubPx};
+use crate::span::doubled_area;
+use crate::target::Buffer;
+use crate::view::{Assembled, Carried, ScreenVertex, Vertex, View};
+use crate::window::Window;
+
+/// The frame being drawn: takes triangles, and stores them for all bands or draws them into one.
+///
+/// The example is [`Bands`](super::Bands)'s.
+pub struct Frame<'f, F: Fragment, Z: DepthTest>(pub(super) Mode<'f, F, Z>);
+
+pub(super) enum Mode<'f, F: Fragment, Z: DepthTest> {
+    Store(Bins<'f, F>),
+    Draw {
+        color: Buffer<'f, F::Pixel>,
+        depth: Cells<'f, Z>,
+        window: Window,
+    },
+}
+
+impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
+    /// The part of the picture that is wanted now: the whole, where the pool holds it all. What lies above or below it need
+    /// not be submitted, if that is known more cheaply than by submitting it.
+    pub fn window(&self) -> Window {
+        match &self.0 {
+            Mode::Store(bins) => bins.window(),
+            Mode::Draw { window, .. } => *window,
+        }
+    }
+
+    /// As [`draw::triangle`], with a fragment program that is stored along with the triangle: its colour, say, or the texture
+    /// that it refers to.
+    #[inline]
+    pub fn triangle(&mut self, corners: [Corner<F::Varying>; 3], fragment: F) {
+        match &mut self.0 {
+            Mode::Store(bins) => bins.triangle(&corners, fragment),
+            Mode::Draw { color, depth, window } => {
+                if reaches(&corners, *window) {
+                    draw::triangle(color, depth, corners, &fragment);
+                }
+            }
+        }
+    }
+
+    /// As [`draw::primitive`]: a triangle in eye space, clipped and projected.
+    pub fn primitive<T, const N: usize>(
+        &mut self,
+        view: &View<T, i32, N>,
+        vertices: &[Vertex<T, <F::Varying as Carried>::Vertex>; 3],
+        fragment: F,
+    ) where
+        T: Word,
+        F::Varying: Carried,
+    {
+        view.project::<F::Varying>(vertices, |shape| self.shape(shape, Position::placed, fragment));
+    }
+
+    /// As [`draw::indexed`]: triangles of vertices that were projected before, by the same view.
+    pub fn indexed<T, I>(
+        &mut self,
+        view: &View<T, i32, 0>,
+        vertices: &[ScreenVertex<T, <F::Varying as Carried>::Vertex>],
+        triangles: impl IntoIterator<Item = [I; 3]>,
+        fragment: F,
+    ) where
+        T: Word,
+        F::Varying: Carried,
+        I: Index,
+    {
+        for [a, b, c] in triangles {
+            if let (Some(a), Some(b), Some(c)) = (
+                vertices.get(a.to_usize()),
+                vertices.get(b.to_usize()),
+                vertices.get(c.to_usize()),
+            ) {
+                self.assembled(view, [a, b, c], fragment);
+            }
+        }
+    }
+
+    /// As [`draw::assembled`]: one triangle of vertices that were projected before, by the same view.
+    #[inline]
+    pub fn assembled<T>(
+        &mut self,
+        view: &View<T, i32, 0>,
+        vertices: [&ScreenVertex<T, <F::Varying as Carried>::Vertex>; 3],
+        fragment: F,
+    ) where
+        T: Word,
+        F::Varying: Carried,
+    {
+        view.assemble::<F::Varying>(vertices, |left| match left {
+            Assembled::Triangle(triangle) => self.shape(triangle, Position::placed, fragment),
+            Assembled::Polygon(shape) => self.shape(shape, Position::placed, fragment),
+        });
+    }
+
+    /// As [`draw::polygon`]: a convex polygon with corners within ±4096 px, such as [`View::project`] makes.
+    #[inline]
+    pub fn polygon<S: Shape<Varying = F::Varying>>(&mut self, shape: &S, fragment: F) {
+        let nearest = |(x, y)| Position::nearest(SubPx::from_bits(x), SubPx::from_bits(y));
+        self.shape(shape, nearest, fragment);
+    }
+
+    #[inline(always)]
+    fn shape<S>(&mut self, shape: &S, place: impl Fn((i32, i32)) -> Position, fragment: F)
+    where
+        S: Shape<Varying = F::Varying>,
+    {
+        match &mut self.0 {
+            Mode::Store(bins) => bins.polygon(shape, place, fragment),
+            Mode::Draw { color, depth, window } => {
+                if reaches(shape, *window) {
+                    draw::polygon::<i32, _, _, _, _>(color, depth, shape, doubled_area(shape), &fragment);
+                }
+            }
+        }
+    }
+}
+
+/// Whether some of the polygon's rows are among the window's.
+#[inline(always)]
+fn reaches(shape: &impl crate::span::Corners, window: Window) -> bool {
+    let (top, bottom) = sample_rows(shape);
+    top.max(window.top) < bottom.min(window.bottom)
+}

@@ -1,0 +1,183 @@
+//! Values that are linear over a triangle, in 32-bit words: the cheap way for triangles of a usual shape and size.
+//!
+//! Every value of a pixel is a·λ_a + b·λ_b + c·λ_c, and the weights λ are the same for all that a triangle carries. So the
+//! triangle computes once what one column and one row add to λ_b and λ_c ([`Weights`]), and a value costs two products for
+//! each of its three numbers ([`Slope`]). From there on everything is addition modulo 2^32, whose order does not matter:
+//! a strip or tile has the bits of the whole picture, and nothing is clamped.
+//!
+//! **Error.** Weights are in units of 2^-(32 − up) per pixel, to 2^-29 of the largest, with `up` the least that keeps them
+//! below 2^30: 0 where the triangle is 4 px high in every direction, one more for each halving of that. A step is cut to
+//! 2^up units of its value, and by the weights' cut to as much again where the value uses all of 31 bits; the value at the
+//! anchor, for which weights are cut to 2^-24, is off by 2^(9 + up) units of 31 bits. [`Weights`] exist where rows and columns
+//! of the triangle's box together are at most 1024 >> up, and `up` is at most 3. So a value of 31 bits is within 2^13 units, a
+//! quarter of a step of depth, and one of 23 bits (a channel of RGB565 in 2^-16 level) within 1100 units
+//! (`tests/narrow.rs`). Whoever uses slopes leaves that much room at both ends of his range.
+
+use core::convert::Infallible;
+
+use crate::edge::{SUBPIXEL_BITS, SUBPIXELS};
+use crate::gradient::Ramp;
+use crate::num::near_reciprocal;
+use crate::varying::Varying;
+
+/// Rows and columns of the largest box, times 2^up.
+const REACH: u32 = 1024;
+/// The thinnest triangle: ½ px high.
+const MOST_UP: u32 = 3;
+
+/// What a triangle's pixels add to the weights of its second and third corner; see the [module](self).
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Weights {
+    /// The anchor: the pixel that the first corner is in.
+    pixel: (i32, i32),
+    /// At the anchor pixel.
+    anchor: (i32, i32),
+    /// Per column.
+    x: (i32, i32),
+    /// Per row.
+    y: (i32, i32),
+    up: u32,
+}
+
+impl Weights {
+    /// Of a triangle on the screen, in subpixels; `None` where it is too large or too thin, or has no area.
+    ///
+    /// ```
+    /// use fixel::{gradient::Ramp, slope::Weights};
+    /// let weights = Weights::new([(0, 0), (0, 1024), (1024, 0)]).unwrap();
+    /// // In units of 2^-16: 0 at (0, 0), 4 at (0, 4) and 8 at (4, 0).
+    /// let slope = weights.slope([0, 4 << 16, 8 << 16]);
+    /// let at = |x, y| slope.ramp(weights.place(x, y)).value;
+    /// assert!(at(0, 0).abs() <= 8 && (at(2, 1) - (5 << 16)).abs() <= 8);
+    /// ```
+    #[inline(always)]
+    pub fn new([a, b, c]: [(i32, i32); 3]) -> Option<Self> {
+        let (first, second) = ((b.0 - a.0, b.1 - a.1), (c.0 - a.0, c.1 - a.1));
+        let area = first.0 as i64 * second.1 as i64 - first.1 as i64 * second.0 as i64;
+        Self::of(a, first, second, area)
+    }
+
+    /// A function of its own: the same for all that is drawn.
+    #[inline(never)]
+    fn of(corner: (i32, i32), (x1, y1): (i32, i32), (x2, y2): (i32, i32), area: i64) -> Option<Self> {
+        if area == 0 {
+            return None;
+        }
+        let [width, height] = [(x1, x2), (y1, y2)].map(|(a, b)| a.unsigned_abs() | b.unsigned_abs());
+        let bits = 32 - (width | height).leading_zeros() as i32;
+        let (divisor, shift) = normalized(area.unsigned_abs());
+        // 1/|area| = reciprocal · 2^-(62 + shift). |side| < 2^bits and reciprocal ≤ 2^31, so that a weight, which is
+        // 2^(8 + 32 − up) · side / area, is below 2^30.
+        let up = (bits - 21 - shift).max(0) as u32;
+        // The or of two numbers is less than twice the larger.
+        let reach = (width + height) >> SUBPIXEL_BITS;
+        if up > MOST_UP || (reach + 2) << up > REACH {
+            return None;
+        }
+        // In 1 + bits…27, since a box below 2^10 px has an area below 2^37.
+        let down = (22 + shift + up as i32) as u32;
+        let reciprocal = near_reciprocal(divisor);
+        let reciprocal = if area < 0 { -reciprocal } else { reciprocal };
+        let weight = |side: i32| high(side as i64 * reciprocal as i64, down);
+        let (x, y) = ((weight(y2), weight(-y1)), (weight(-x2), weight(x1)));
+        // Below 2^22 · 255 · 2.
+        let (fx, fy) = (corner.0 & (SUBPIXELS - 1), corner.1 & (SUBPIXELS - 1));
+        let at = |x: i32, y: i32| (x >> 8) * fx + (y >> 8) * fy;
+        Some(Weights {
+            pixel: (corner.0 >> SUBPIXEL_BITS, corner.1 >> SUBPIXEL_BITS),
+            anchor: (at(x.0, y.0), at(x.1, y.1)),
+            x,
+            y,
+            up,
+        })
+    }
+
+    /// Columns and rows from the anchor to pixel (x, y), modulo 2^32.
+    #[inline(always)]
+    pub fn place(&self, x: i32, y: i32) -> (i32, i32) {
+        (x.wrapping_sub(self.pixel.0), y.wrapping_sub(self.pixel.1))
+    }
+
+    /// The slope through `values` at the triangle's corners, each less than 2^31 from the first.
+    #[inline(always)]
+    pub fn slope(&self, [a, b, c]: [i32; 3]) -> Slope {
+        let (b, c) = (b.wrapping_sub(a) as i64, c.wrapping_sub(a) as i64);
+        // |weights| < 2^31, those at the anchor less by a 256th: below 2^63.
+        let dot = |(p, q): (i32, i32)| ((b * p as i64).wrapping_add(c * q as i64) >> 32) as i32;
+        let dot = |weights| dot(weights).wrapping_shl(self.up);
+        Slope {
+            value: a.wrapping_sub(dot(self.anchor)),
+            x: dot(self.x),
+            y: dot(self.y),
+        }
+    }
+}
+
+/// `magnitude` · 2^-shift in 2^31…2^32−1, cut, and the shift; by halves.
+#[inline(always)]
+fn normalized(magnitude: u64) -> (u32, i32) {
+    let (high, low) = ((magnitude >> 32) as u32, magnitude as u32);
+    if high == 0 {
+        let up = low.leading_zeros();
+        (low.wrapping_shl(up), -(up as i32))
+    } else {
+        let up = high.leading_zeros();
+        (high.wrapping_shl(up) | (low >> 1).wrapping_shr(31 - up), 32 - up as i32)
+    }
+}
+
+/// `product` >> `down`, for 1…31 and a result of 32 bits. By halves: shifts of 64 bits are many instructions, or a call.
+#[inline(always)]
+fn high(product: i64, down: u32) -> i32 {
+    let (high, low) = ((product >> 32) as u32, product as u32);
+    (high.wrapping_shl(32 - down) | low.wrapping_shr(down)) as i32
+}
+
+/// A value over a triangle: at the anchor pixel, and what a column and a row add; modulo 2^32.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Slope {
+    /// At the anchor.
+    pub value: i32,
+    /// Per column.
+    pub x: i32,
+    /// Per row.
+    pub y: i32,
+}
+
+impl Slope {
+    /// Along a row from a place on, as [`Weights::place`] gives it.
+    #[inline(always)]
+    pub fn ramp(&self, (columns, rows): (i32, i32)) -> Ramp<i32> {
+        let value = self.value.wrapping_add(self.y.wrapping_mul(rows));
+        Ramp {
+            value: value.wrapping_add(self.x.wrapping_mul(columns)),
+            step: self.x,
+        }
+    }
+}
+
+/// What a varying keeps of a triangle that has [`Weights`]; [`Infallible`] for those that always take the wide way.
+pub trait Slopes<V: Varying>: Sized {
+    /// Whether there is anything to set up at all.
+    const CARRIES: bool = true;
+
+    /// Set up once per triangle; `None` where a varying has no use for weights.
+    fn new(weights: &Weights, corners: [V; 3]) -> Option<Self>;
+    /// Along a row from a place on.
+    fn ramps(&self, place: (i32, i32)) -> V::Ramps;
+    /// At the current pixel.
+    fn values(&self, ramps: &V::Ramps) -> V::Values;
+}
+
+impl<V: Varying> Slopes<V> for Infallible {
+    #[inline(always)]
+    fn new(_: &Weights, _: [V; 3]) -> Option<Self> {
+        None
+    }
+    fn ramps(&self, _: (i32, i32)) -> V::Ramps {
+        match *self {}
+    }
+    fn values(&self, _: &V::Ramps) -> V::Values {
+        match *self {}
+    }
+}
