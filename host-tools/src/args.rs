@@ -10,6 +10,9 @@ use crate::scene::iv::Shading;
 use crate::scene::size::Size;
 
 const EXIT_CODES: &str = "\
+host-render emit SCENE -o FILE.rs writes a scene as Rust for firmware; see host-render emit --help.
+host-render extremes shows how far the stated bounds hold; see host-render extremes --help.
+
 Exit codes: 0 within limits, 1 differs, 2 bad scene or bad usage, 3 file trouble, 4 internal error; of several \
 scenes the largest.
 
@@ -68,9 +71,17 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub depth_out: Option<PathBuf>,
 
+    /// A page of HTML that shows both pictures, where they differ and why
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
+
     /// One JSON object per scene on standard output
     #[arg(long)]
     pub json: bool,
+
+    /// The command line itself, quoted for a shell.
+    #[arg(skip)]
+    pub command: String,
 }
 
 impl Args {
@@ -84,13 +95,42 @@ impl Args {
     where
         T: Into<std::ffi::OsString> + Clone,
     {
-        let args = Self::try_parse_from(words)?;
+        let words: Vec<std::ffi::OsString> = words.into_iter().map(Into::into).collect();
+        let mut args = Self::try_parse_from(&words)?;
+        args.command = quoted(&words);
         match args.single_option() {
             Some(option) if args.scenes.len() > 1 => Err(Self::command().error(
                 ErrorKind::ArgumentConflict,
                 format!("{option} takes one scene, found {}", args.scenes.len()),
             )),
             _ => Ok(args),
+        }
+    }
+
+    /// What says of one scene how it is to be read.
+    pub fn of_scene(
+        scene: PathBuf,
+        format: Option<Format>,
+        size: Option<Size>,
+        shading: Option<Shading>,
+        eyelight: bool,
+    ) -> Self {
+        Args {
+            scenes: vec![scene],
+            output: None,
+            out_dir: PathBuf::from("."),
+            format,
+            size,
+            shading,
+            eyelight,
+            reference_out: None,
+            diff_out: None,
+            against: None,
+            ties: None,
+            depth_out: None,
+            report: None,
+            json: false,
+            command: String::new(),
         }
     }
 
@@ -118,6 +158,14 @@ impl Args {
         .into_iter()
         .find_map(|(file, name)| file.as_ref().map(|_| name))
     }
+}
+
+/// The words as one would type them, the program by its name alone.
+fn quoted(words: &[std::ffi::OsString]) -> String {
+    let arguments = words.iter().skip(1).map(|word| word.to_string_lossy());
+    let words: Vec<_> = std::iter::once("host-render".into()).chain(arguments).collect();
+    // A word with a zero byte cannot come from a command line.
+    shlex::try_join(words.iter().map(|word| word.as_ref())).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -152,12 +200,18 @@ mod tests {
     }
 
     #[test]
+    fn the_command_is_quoted() {
+        let args = Args::from(["/usr/bin/host-render", "a b.txt", "--report", "it's.html"]).expect("good usage");
+        assert_eq!(args.command, r#"host-render 'a b.txt' --report "it's.html""#);
+    }
+
+    #[test]
     fn bad_usage() {
         for line in [
             "host-render",
             "host-render a.txt --ties t.png",
             "host-render a.txt --format png",
-            "host-render a.txt --report r.html",
+            "host-render a.txt --report",
             "host-render a.iv --size",
             "host-render a.iv --size 10",
             "host-render a.iv --size 0x10",

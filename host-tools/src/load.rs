@@ -17,6 +17,8 @@ pub struct Loaded {
     pub file: PathBuf,
     /// Its format.
     pub format: Format,
+    /// Its text.
+    pub text: Vec<u8>,
     /// What it says.
     pub scene: Scene,
 }
@@ -50,6 +52,7 @@ pub fn load(file: &Path, args: &Args) -> Result<Loaded, Failure> {
         Ok(scene) => Ok(Loaded {
             file: file.to_owned(),
             format,
+            text,
             scene,
         }),
         Err(fault) => Err(Failure::scene(file, &fault)),

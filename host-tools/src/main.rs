@@ -4,10 +4,18 @@ use std::panic::catch_unwind;
 use std::process::ExitCode;
 
 use fixel_host::args::Args;
+use fixel_host::emit::command::Command as Emit;
 use fixel_host::exit::Exit;
+use fixel_host::extremes::command::Command as Extremes;
 use fixel_host::run::run;
 
 fn main() -> ExitCode {
+    if let Some(command) = Extremes::asked() {
+        return catch_unwind(|| command.run()).unwrap_or(Exit::Internal).into();
+    }
+    if let Some(command) = Emit::asked() {
+        return command.run().into();
+    }
     let args = Args::read();
     catch_unwind(|| run(&args)).unwrap_or(Exit::Internal).into()
 }

@@ -73,6 +73,9 @@ pub fn plan(args: &Args, scenes: &[&Loaded]) -> Result<Vec<Outputs>, Failure> {
             protect(file, what);
         }
     }
+    if let Some(file) = &args.report {
+        claim_report(&mut roles, file)?;
+    }
     let outputs: Vec<_> = scenes.iter().map(|loaded| Outputs::new(args, loaded)).collect();
     for (loaded, outputs) in scenes.iter().zip(&outputs) {
         for file in outputs.files() {
@@ -80,6 +83,20 @@ pub fn plan(args: &Args, scenes: &[&Loaded]) -> Result<Vec<Outputs>, Failure> {
         }
     }
     Ok(outputs)
+}
+
+/// Takes a file for the report, which is of no scene.
+fn claim_report(roles: &mut HashMap<Identity, Role<'_>>, file: &Path) -> Result<(), Failure> {
+    let Some(identity) = files::identity(file) else {
+        return Ok(());
+    };
+    match roles.insert(identity, Role::Input("the report")) {
+        Some(Role::Input(what)) => Err(Failure::bad(format!(
+            "the report {} would overwrite {what}",
+            file.display()
+        ))),
+        _ => Ok(()),
+    }
 }
 
 fn claim<'a>(roles: &mut HashMap<Identity, Role<'a>>, file: &Path, scene: &'a Path) -> Result<(), Failure> {

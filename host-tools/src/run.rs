@@ -14,6 +14,7 @@ use crate::files::{self, Staged};
 use crate::load::{Loaded, load};
 use crate::maps;
 use crate::outputs::{Outputs, plan};
+use crate::page::{self, Section};
 use crate::picture::Picture;
 use crate::png;
 use crate::render::{Rendered, render};
@@ -25,7 +26,13 @@ pub fn run(args: &Args) -> Exit {
         Ok(results) => results,
         Err(exit) => return exit,
     };
-    let worst = results.iter().map(exit).max().unwrap_or(Exit::Within);
+    let mut worst = results.iter().map(exit).max().unwrap_or(Exit::Within);
+    if let Some(file) = &args.report
+        && let Err(failure) = write_page(file, args, &results)
+    {
+        complain(format_args!("{}", failure.message));
+        worst = worst.max(failure.exit);
+    }
     match print(args, &results) {
         Ok(()) => worst,
         // Nobody listens any more; what was to be written has been.
@@ -37,11 +44,18 @@ pub fn run(args: &Args) -> Exit {
     }
 }
 
-type Outcome = Result<Report, Failure>;
+type Outcome = Result<Told, Failure>;
+
+/// What there is to say about a scene.
+struct Told {
+    report: Report,
+    /// With `--report`.
+    section: Option<Section>,
+}
 
 fn exit(outcome: &Outcome) -> Exit {
     match outcome {
-        Ok(report) => report.exit(),
+        Ok(told) => told.report.exit(),
         Err(failure) => failure.exit,
     }
 }
@@ -102,16 +116,35 @@ fn one(args: &Args, loaded: &Loaded, outputs: &Outputs) -> Outcome {
     let rendered = render(&loaded.scene).map_err(|fault| Failure::scene(&loaded.file, &fault))?;
     write(outputs, &rendered)?;
     let (width, height) = loaded.scene.size();
-    Ok(Report {
+    let report = Report {
         scene: loaded.file.display().to_string(),
         format: loaded.format,
         width,
         height,
         against: against.map(|against| [&rendered.fixed, &rendered.reference].map(|p| against.agreement(p))),
-        comparison: rendered.comparison,
         seconds_fixed: rendered.seconds_fixed,
         seconds_reference: rendered.seconds_reference,
-    })
+        comparison: rendered.comparison,
+    };
+    let section = match args.report {
+        Some(_) => Some(page::section(loaded, [&rendered.fixed, &rendered.reference], &report)?),
+        None => None,
+    };
+    Ok(Told { report, section })
+}
+
+/// Writes the page that `--report` asks for.
+fn write_page(file: &Path, args: &Args, outcomes: &[Outcome]) -> Result<(), Failure> {
+    let sections: Vec<Result<&Section, &Failure>> = outcomes
+        .iter()
+        .filter_map(|outcome| match outcome {
+            Ok(told) => told.section.as_ref().map(Ok),
+            Err(failure) => Some(Err(failure)),
+        })
+        .collect();
+    let page = page::page(&args.command, &sections);
+    files::stage(file, page.into_bytes())?.commit()?;
+    Ok(())
 }
 
 /// Writes a scene's pictures: all are made ready before the first takes its place.
@@ -152,8 +185,8 @@ fn print(args: &Args, outcomes: &[Outcome]) -> io::Result<()> {
     let mut out = io::stdout().lock();
     for (file, outcome) in args.scenes.iter().zip(outcomes) {
         match outcome {
-            Ok(report) if args.json => writeln!(out, "{}", report.json())?,
-            Ok(report) => writeln!(out, "{}", report.line())?,
+            Ok(told) if args.json => writeln!(out, "{}", told.report.json())?,
+            Ok(told) => writeln!(out, "{}", told.report.line())?,
             Err(failure) if args.json => writeln!(out, "{}", report::failure(file, failure))?,
             Err(_) => {}
         }

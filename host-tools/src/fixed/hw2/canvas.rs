@@ -9,6 +9,8 @@ use fixel::target::Buffer;
 use fixel::view::{Carried, Vertex, View};
 use fixel::window::Window;
 
+use crate::emit::drawing::Program;
+use crate::emit::log::{Log, Read};
 use crate::fixed::{FixedPicture, Pixel};
 
 /// Clip planes that a scene may set.
@@ -23,6 +25,8 @@ pub struct Canvas<W> {
     window: Window,
     pixels: Vec<Pixel>,
     depths: Vec<u16>,
+    /// What is drawn is written down, if somebody wants it.
+    pub log: Option<Log>,
 }
 
 impl<W: Word> Canvas<W> {
@@ -36,6 +40,15 @@ impl<W: Word> Canvas<W> {
             window,
             pixels: vec![Pixel::default(); size],
             depths: vec![FAR; size],
+            log: None,
+        }
+    }
+
+    /// Tells the log what colours the triangles from now on.
+    pub fn describe(&mut self, program: impl FnOnce(&mut Log) -> Program) {
+        if let Some(log) = &mut self.log {
+            let program = program(log);
+            log.program(program);
         }
     }
 
@@ -60,7 +73,7 @@ impl<W: Word> Canvas<W> {
     /// Draws one triangle, given in eye space.
     pub fn draw<F>(&mut self, eye: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
     where
-        F: Fragment<Pixel = Pixel, Varying: Carried>,
+        F: Fragment<Pixel = Pixel, Varying: Carried + Read>,
     {
         let ([a, b, c], [u, v, w]) = (eye, carried);
         let corners = [(a, u), (b, v), (c, w)].map(|(position, carried)| Vertex { position, carried });
@@ -71,20 +84,28 @@ impl<W: Word> Canvas<W> {
             if self.has_planes {
                 let view = with_planes(&self.view, self.planes.clone());
                 draw::primitive(&view, &mut color, &mut depth, &corners, fragment);
+                if let Some(log) = &mut self.log {
+                    view.project::<F::Varying>(&corners, |polygon| log.polygon(polygon));
+                }
             } else {
                 draw::primitive(&self.view, &mut color, &mut depth, &corners, fragment);
+                if let Some(log) = &mut self.log {
+                    self.view
+                        .project::<F::Varying>(&corners, |polygon| log.polygon(polygon));
+                }
             }
         }
     }
 
-    /// What was drawn.
-    pub fn finish(self) -> FixedPicture {
-        FixedPicture {
+    /// What was drawn, and what was written down.
+    pub fn finish(self) -> (FixedPicture, Option<Log>) {
+        let picture = FixedPicture {
             width: self.window.width() as u32,
             height: self.window.height() as u32,
             pixels: self.pixels,
             depth: self.depths,
-        }
+        };
+        (picture, self.log)
     }
 }
 

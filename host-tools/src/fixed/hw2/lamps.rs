@@ -52,14 +52,7 @@ impl Lamps {
         self.shift = exponents.max().unwrap_or(0).saturating_add(48);
         *self.lights = Lights::default();
         for &(place, color) in &self.given {
-            let color = color
-                .scaled(self.shift.saturating_neg())
-                .split()
-                .map(|c| c.to_fixed(16) as i32);
-            let light = match place {
-                Place::Sun(direction) => Light::Sun { direction, color },
-                Place::Bulb(position) => Light::Bulb { position, color },
-            };
+            let light = self.light(place, color);
             let full = |_| match place {
                 Place::Sun(_) => format!("more than {SUNS} lights of sunlight"),
                 Place::Bulb(_) => format!("more than {BULBS} lights of bulb"),
@@ -67,6 +60,23 @@ impl Lamps {
             self.lights.add(light).map_err(full)?;
         }
         Ok(())
+    }
+
+    /// The core's lights, in the order in which they were given.
+    pub fn all(&self) -> Vec<Light<i64>> {
+        let light = |&(place, color)| self.light(place, color);
+        self.given.iter().map(light).collect()
+    }
+
+    fn light(&self, place: Place, color: Block<i64, 3>) -> Light<i64> {
+        let color = color
+            .scaled(self.shift.saturating_neg())
+            .split()
+            .map(|c| c.to_fixed(16) as i32);
+        match place {
+            Place::Sun(direction) => Light::Sun { direction, color },
+            Place::Bulb(position) => Light::Bulb { position, color },
+        }
     }
 
     /// Whether surfaces show their own colours.

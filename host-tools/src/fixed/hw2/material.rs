@@ -159,8 +159,10 @@ impl<S: Surface, N: Vector, P: Vector, F: Finish, const K: usize> Fragment for U
 
 /// Blinn-Phong on surfaces whose colours are in other units than 2^-16 of full.
 pub struct Polished {
-    exponent: u32,
-    highlight: i32,
+    /// In units of 2^-16.
+    pub exponent: u32,
+    /// See [`Finish::highlight`].
+    pub highlight: i32,
 }
 
 impl Polished {

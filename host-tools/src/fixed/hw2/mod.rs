@@ -12,13 +12,15 @@ use fixel::viewport::Viewport;
 use fixel::window::Window;
 
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
+use crate::emit::drawing::{Drawing, Nearer, Pixels};
+use crate::emit::log::Log;
 use crate::fixed::FixedPicture;
 use crate::picture::Picture;
 
 mod canvas;
 mod corner;
-mod lamps;
-mod material;
+pub(crate) mod lamps;
+pub(crate) mod material;
 mod patch;
 mod scene;
 mod shade;
@@ -28,7 +30,9 @@ pub struct Fixed(Box<dyn Renderer>);
 
 /// A back end with a picture at the end.
 trait Renderer: BackEnd {
-    fn finish(self: Box<Self>) -> FixedPicture;
+    /// From now on what is drawn is written down.
+    fn record(&mut self, log: Log);
+    fn finish(self: Box<Self>) -> (FixedPicture, Option<Log>);
 }
 
 impl Fixed {
@@ -65,7 +69,33 @@ impl Fixed {
 
     /// What was drawn.
     pub fn finish(self) -> FixedPicture {
-        self.0.finish()
+        self.0.finish().0
+    }
+
+    /// As [`new`](Self::new), with a log.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub fn recorded(width: u32, height: u32) -> Self {
+        let mut fixed = Self::new(width, height);
+        fixed.0.record(Log::new(Drawing {
+            width,
+            height,
+            level: 1,
+            wide: width.max(height) > <i32 as Word>::GUARD as u32,
+            depth: Some(Nearer::LessOrEqual),
+            pixels: Pixels::Bytes,
+            textures: Vec::new(),
+            lights: Vec::new(),
+            draws: Vec::new(),
+        }));
+        fixed
+    }
+
+    /// What was drawn, and what a log says about it.
+    pub fn finish_recorded(self) -> (FixedPicture, Option<Drawing>) {
+        let (picture, log) = self.0.finish();
+        (picture, log.map(Log::finish))
     }
 }
 

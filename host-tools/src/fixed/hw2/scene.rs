@@ -18,6 +18,7 @@ use super::lamps::{Lamps, Place};
 use super::patch::Lowered;
 use super::shade::{self, Look, Paint};
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
+use crate::emit::log::Log;
 use crate::fixed::FixedPicture;
 use crate::lower;
 use crate::picture::Picture;
@@ -123,6 +124,7 @@ impl State {
             shift,
             flat_normal: self.flat_normals && matches!(surface, Surface::Flat(_)),
             shininess: self.shininess,
+            picture: self.texture.as_ref(),
         })
     }
 
@@ -269,7 +271,11 @@ impl<W: Word> BackEnd for Scene<W> {
 }
 
 impl<W: Word> Renderer for Scene<W> {
-    fn finish(self: Box<Self>) -> FixedPicture {
+    fn record(&mut self, log: Log) {
+        self.canvas.log = Some(log);
+    }
+
+    fn finish(self: Box<Self>) -> (FixedPicture, Option<Log>) {
         self.canvas.finish()
     }
 }

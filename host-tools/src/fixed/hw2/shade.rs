@@ -1,5 +1,7 @@
 //! Picks the fragment program for a triangle: the one that carries no more than it needs.
 
+use std::sync::Arc;
+
 use fixel::fragment::{Flat, Fragment};
 use fixel::light::{Finish, Lit, Matte};
 use fixel::num::Word;
@@ -11,7 +13,10 @@ use super::lamps::{AtScale, BULBS, Lamps};
 use super::material::{
     Decal, Gouraud, Interpolated, Plain, Polished, Same, Sampler, Surface, Textured, UnderLight, Unlit, Vector, pixel,
 };
+use crate::emit::drawing::{self, Lights, Program, Sampled};
+use crate::emit::log::Log;
 use crate::fixed::{Pixel, texcoord};
+use crate::picture::Picture;
 
 /// A triangle's surface.
 #[derive(Clone, Copy)]
@@ -37,6 +42,8 @@ pub struct Look<'a> {
     pub flat_normal: bool,
     /// Units of 2^-16; `None` without highlights.
     pub shininess: Option<u32>,
+    /// The texture of the moment.
+    pub picture: Option<&'a Arc<Picture>>,
 }
 
 /// A triangle in work.
@@ -58,6 +65,8 @@ const HEADROOM: u32 = 10;
 struct Light<'a> {
     lit: &'a Lit<'a, BULBS>,
     lamps: &'a Lamps,
+    /// Of the unit of places.
+    exponent: i32,
     /// `None` to interpolate the corners'.
     flat_normal: Option<[i32; 3]>,
     /// The corners', at the scale of `lit`.
@@ -77,6 +86,7 @@ impl<'a> Light<'a> {
         Some(Light {
             lit: lights.lit(exponent),
             lamps,
+            exponent,
             flat_normal,
             places,
         })
@@ -107,7 +117,7 @@ pub fn triangle<W: Word>(
         shift: look.shift + if lit { headroom as i32 } else { 0 },
         ..look
     };
-    let work = Work {
+    let mut work = Work {
         canvas,
         look,
         corners,
@@ -117,14 +127,19 @@ pub fn triangle<W: Word>(
     let colors = corners.map(|c| c.color);
     match look.paint {
         Paint::Plain(color) => work.plain(color),
-        Paint::Gouraud => work.surface::<_, 3, 6, 9>(Gouraud, colors),
+        Paint::Gouraud => {
+            work.describe(|_| drawing::Surface::Gouraud);
+            work.surface::<_, 3, 6, 9>(Gouraud, colors);
+        }
         Paint::Textured(texture) => {
-            let (st, sampler) = sampler(texture, corners, headroom)?;
+            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom)?;
+            work.describe(|log| drawing::Surface::Textured(look.sampled(log, fraction_bits)));
             work.surface::<_, 2, 5, 8>(Textured(sampler), st);
         }
         Paint::Decal(texture) => {
-            let (st, sampler) = sampler(texture, corners, headroom)?;
+            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom)?;
             let shift = look.shift.unsigned_abs();
+            work.describe(|log| drawing::Surface::Decal(look.sampled(log, fraction_bits), shift));
             let mut st = st.into_iter();
             let carried = colors.map(|[r, g, b]| {
                 let [s, t] = st.next().unwrap_or_default();
@@ -141,19 +156,54 @@ fn sampler<'t>(
     texture: Texture<'t, Rgba8888>,
     corners: &[Corner; 3],
     headroom: u32,
-) -> Result<([[i32; 2]; 3], Sampler<'t>), String> {
+) -> Result<([[i32; 2]; 3], Sampler<'t>, u32), String> {
     let (st, fraction_bits) = texcoord::texels(
         corners.map(|corner| corner.texcoord),
         [texture.width(), texture.height()],
         headroom,
         texcoord::middle,
     )?;
-    Ok((st, Sampler::new(texture, fraction_bits)))
+    Ok((st, Sampler::new(texture, fraction_bits), fraction_bits))
+}
+
+impl Look<'_> {
+    fn sampled(&self, log: &mut Log, fraction_bits: u32) -> Sampled {
+        Sampled {
+            texture: self.picture.map_or(0, |picture| log.texture(picture)),
+            fraction_bits,
+        }
+    }
 }
 
 impl<W: Word> Work<'_, W> {
+    /// Tells the log.
+    fn describe(&mut self, surface: impl FnOnce(&mut Log) -> drawing::Surface) {
+        let Work {
+            canvas, look, light, ..
+        } = self;
+        canvas.describe(|log| {
+            let lit = light.map(|light| drawing::Lit {
+                lights: log.lights(Lights::Eye(light.lamps.all())),
+                exponent: light.exponent,
+                normal: light.flat_normal,
+                places: look.shininess.is_some() || light.lamps.has_bulbs(),
+                shiny: look.shininess.map(|exponent| {
+                    let polished = Polished::new(exponent, look.shift);
+                    (exponent, polished.highlight())
+                }),
+            });
+            let lights_shift = light.map_or(0, |light| light.lamps.shift());
+            Program::Surface {
+                surface: surface(log),
+                shift: look.shift.saturating_add(lights_shift),
+                lit,
+            }
+        });
+    }
+
     /// One colour. Unlit, or lit by suns only and flat, it is the same everywhere.
-    fn plain(self, color: [i32; 3]) {
+    fn plain(mut self, color: [i32; 3]) {
+        self.describe(|_| drawing::Surface::Plain(color));
         match self.light {
             Some(light) => self.lit::<_, 0, 3, 6>(light, Plain(color), [[]; 3]),
             None => {
@@ -164,6 +214,7 @@ impl<W: Word> Work<'_, W> {
     }
 
     fn flat(self, pixel: Pixel) {
+        self.canvas.describe(|_| Program::Flat(pixel.rgba));
         self.canvas.draw(self.corners.map(|c| c.eye), [(); 3], &Flat(pixel));
     }
 

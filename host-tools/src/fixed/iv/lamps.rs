@@ -75,4 +75,19 @@ impl Surface {
             specular,
         }))
     }
+
+    /// With or without: without, their colour is black.
+    pub fn described(&self) -> Material<Glossy> {
+        match *self {
+            Self::Glossy(material) => material,
+            Self::Matte(Material { ambient, diffuse, .. }) => Material {
+                ambient,
+                diffuse,
+                specular: Glossy {
+                    color: [0; 3],
+                    shininess: 0,
+                },
+            },
+        }
+    }
 }

@@ -15,14 +15,16 @@ use fixel::view::{Carried, Cull, Vertex, View};
 use fixel::viewport::Viewport;
 use fixel::window::Window;
 
+use crate::emit::drawing::{Drawing, Nearer, Pixels, Program};
+use crate::emit::log::{Log, Read};
 use crate::fixed::{FixedPicture, Pixel};
 use crate::lower;
 use crate::scene::Fault;
 use crate::scene::iv::{Camera, Scene};
 
-mod lamps;
+pub(crate) mod lamps;
 mod object;
-mod shade;
+pub(crate) mod shade;
 mod words;
 
 pub use words::words;
@@ -47,11 +49,42 @@ pub fn draw_part(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
     }
 }
 
+/// The scene's picture and what it is drawn from.
+///
+/// # Errors
+/// As [`draw()`].
+pub fn recorded(scene: &Scene) -> Result<(FixedPicture, Option<Drawing>), Fault> {
+    let window = Window::new(0, 0, scene.width as i32, scene.height as i32);
+    let wide = scene.width.max(scene.height) > <i32 as Word>::GUARD as u32;
+    let log = Log::new(Drawing {
+        width: scene.width,
+        height: scene.height,
+        level: 1,
+        wide,
+        depth: Some(Nearer::LessOrFar),
+        pixels: Pixels::Bytes,
+        textures: Vec::new(),
+        lights: Vec::new(),
+        draws: Vec::new(),
+    });
+    let (picture, log) = if wide {
+        logged::<i64>(scene, window, Some(log))?
+    } else {
+        logged::<i32>(scene, window, Some(log))?
+    };
+    Ok((picture, log.map(Log::finish)))
+}
+
 /// With a certain word for the edges.
 ///
 /// # Errors
 /// As [`draw()`], and where the picture does not fit the word.
 pub fn with_word<W: Word>(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
+    let (picture, _) = logged::<W>(scene, window, None)?;
+    Ok(picture)
+}
+
+fn logged<W: Word>(scene: &Scene, window: Window, log: Option<Log>) -> Result<(FixedPicture, Option<Log>), Fault> {
     let size = window.width() * window.height();
     let mut canvas = Canvas {
         view: view::<W>(scene).map_err(Fault::of_whole)?,
@@ -59,16 +92,18 @@ pub fn with_word<W: Word>(scene: &Scene, window: Window) -> Result<FixedPicture,
         pixels: vec![Pixel::default(); size],
         depths: vec![FAR; size],
         primitives: 0,
+        log,
     };
     for object in &scene.model.objects {
         object::draw(&mut canvas, scene, object).map_err(Fault::of_whole)?;
     }
-    Ok(FixedPicture {
+    let picture = FixedPicture {
         width: window.width() as u32,
         height: window.height() as u32,
         pixels: canvas.pixels,
         depth: canvas.depths,
-    })
+    };
+    Ok((picture, canvas.log))
 }
 
 fn view<W: Word>(scene: &Scene) -> Result<View<i64, W, 0>, String> {
@@ -109,13 +144,23 @@ struct Canvas<W> {
     depths: Vec<u16>,
     /// Triangles so far.
     primitives: u32,
+    /// What is drawn is written down, if somebody wants it.
+    log: Option<Log>,
 }
 
 impl<W: Word> Canvas<W> {
+    /// Tells the log what colours the triangles from now on.
+    fn describe(&mut self, program: impl FnOnce(&mut Log) -> Program) {
+        if let Some(log) = &mut self.log {
+            let program = program(log);
+            log.program(program);
+        }
+    }
+
     /// Draws one triangle, given in the world.
     fn draw<F>(&mut self, world: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
     where
-        F: Fragment<Pixel = Pixel, Varying: Carried>,
+        F: Fragment<Pixel = Pixel, Varying: Carried + Read>,
     {
         let ([a, b, c], [u, v, w]) = (world, carried);
         let corners = [(a, u), (b, v), (c, w)].map(|(position, carried)| Vertex { position, carried });
@@ -124,6 +169,10 @@ impl<W: Word> Canvas<W> {
         if let (Ok(mut color), Ok(depth)) = (color, depth) {
             let mut depth = DepthBuffer::<_, LessOrFar>::new(depth);
             draw::primitive(&self.view, &mut color, &mut depth, &corners, fragment);
+        }
+        if let Some(log) = &mut self.log {
+            self.view
+                .project::<F::Varying>(&corners, |polygon| log.polygon(polygon));
         }
     }
 }

@@ -7,7 +7,8 @@ use fixel::num::{Block, Scaled, SineTable, Word};
 
 use super::Canvas;
 use super::lamps::{self, LIGHTS, Surface};
-use super::shade::{Flat, Gouraud, Phong};
+use super::shade::{self, Flat, Gouraud, Phong};
+use crate::emit::drawing::{Lights, Program};
 use crate::lower;
 use crate::scene::iv::{Object, Scene, Shading, Transform};
 
@@ -70,19 +71,31 @@ fn shaded<W: Word, S: Specular>(
     match scene.shading {
         Shading::Flat => mesh.faces().for_each(|face| {
             let color = flat(&face, &mut cache, corner, &lights, material);
+            canvas.describe(|_| Program::Flat(shade::pixel(color, 0).rgba));
             each(canvas, &face, &mut cache, corner, |canvas, corners, primitive| {
                 canvas.draw(corners.map(|c| c.world), [(); 3], &Flat::new(color, primitive));
             });
         }),
-        Shading::Gouraud => mesh.faces().for_each(|face| {
-            each(canvas, &face, &mut cache, corner, |canvas, corners, primitive| {
-                let colors = corners.map(|c| c.color);
-                canvas.draw(corners.map(|c| c.world), colors, &Gouraud { primitive });
+        Shading::Gouraud => {
+            canvas.describe(|_| Program::Corners);
+            mesh.faces().for_each(|face| {
+                each(canvas, &face, &mut cache, corner, |canvas, corners, primitive| {
+                    let colors = corners.map(|c| c.color);
+                    canvas.draw(corners.map(|c| c.world), colors, &Gouraud { primitive });
+                });
             });
-        }),
+        }
         Shading::Phong => {
             let exponent = to_world.unit(object, origin);
             let lit = lights.at_scale(exponent);
+            let (eye, all) = lamps::seen_from(scene, origin);
+            let described = Surface::of(&object.material)?.described();
+            canvas.describe(|log| Program::Phong {
+                lights: log.lights(Lights::World(eye, all)),
+                exponent,
+                material: described,
+                shines: S::SHINES,
+            });
             mesh.faces().for_each(|face| {
                 each(canvas, &face, &mut cache, corner, |canvas, corners, primitive| {
                     let carried = corners.map(|c| Phong::<S, LIGHTS>::carried(c.place, exponent, c.normal));

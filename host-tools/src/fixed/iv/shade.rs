@@ -8,7 +8,7 @@ use fixel::varying::{Linear, Perspective};
 use crate::fixed::Pixel;
 
 /// Bits that interpolated colours are finer than the core's results.
-const FINER: u32 = 2;
+pub const FINER: u32 = 2;
 
 /// One colour for the face.
 pub struct Flat(Pixel);
@@ -87,7 +87,7 @@ impl<S: Specular, const N: usize> Fragment for Phong<'_, S, N> {
 
 /// A pixel of a colour in units of 2^-28: rounded to 2^-16 of a level, so that a byte's own value comes out as that byte, and cut
 /// off.
-fn pixel(color: [i32; 3], primitive: u32) -> Pixel {
+pub fn pixel(color: [i32; 3], primitive: u32) -> Pixel {
     let [r, g, b] = color.map(|c| {
         let levels = (i64::from(c.clamp(0, FULL)) * 255 + (1 << 11)) >> 12;
         (levels >> 16) as u8

@@ -5,7 +5,6 @@
 
 use std::collections::HashMap;
 
-use fixel::light::Matte;
 use fixel::light::world::{Glossy, Material};
 use fixel::matrix::Matrix;
 use fixel::mesh::Index;
@@ -70,24 +69,11 @@ fn largest(matrix: &Matrix<i64>) -> i32 {
 }
 
 fn push_material(words: &mut Vec<u16>, surface: &Surface) {
-    let (ambient, diffuse, Glossy { color, shininess }) = match *surface {
-        Surface::Matte(Material {
-            ambient,
-            diffuse,
-            specular: Matte,
-        }) => {
-            let none = Glossy {
-                color: [0; 3],
-                shininess: 0,
-            };
-            (ambient, diffuse, none)
-        }
-        Surface::Glossy(Material {
-            ambient,
-            diffuse,
-            specular,
-        }) => (ambient, diffuse, specular),
-    };
+    let Material {
+        ambient,
+        diffuse,
+        specular: Glossy { color, shininess },
+    } = surface.described();
     let numbers = [ambient, diffuse, color].into_iter().flatten();
     numbers.for_each(|number| push_number(words, number));
     push_number(words, shininess as i32);

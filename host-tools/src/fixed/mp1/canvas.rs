@@ -10,6 +10,7 @@ use fixel::viewport::Viewport;
 use fixel::window::Window;
 
 use super::program::Sample;
+use crate::emit::log::Log;
 use crate::lower;
 use crate::scene::mp1::Switches;
 
@@ -90,6 +91,8 @@ pub struct Canvas {
     /// Row by row; without a depth test nothing is stored.
     pub depths: Vec<u16>,
     tested: bool,
+    /// What is drawn is written down, if somebody wants it.
+    pub log: Option<Log>,
 }
 
 impl Canvas {
@@ -101,11 +104,15 @@ impl Canvas {
             samples: vec![Sample::default(); size],
             depths: vec![FAR; if tested { size } else { 0 }],
             tested,
+            log: None,
         }
     }
 
     /// Draws with or without a depth test.
     pub fn draw(&mut self, drawing: &impl Draw) {
+        if let Some(log) = &mut self.log {
+            drawing.record(log);
+        }
         let Ok(mut color) = Buffer::strip(&mut self.samples, self.window) else {
             return;
         };
@@ -121,4 +128,6 @@ impl Canvas {
 pub trait Draw {
     /// Draws it.
     fn draw(&self, color: &mut Buffer<'_, Sample>, depth: &mut impl Depth);
+    /// Writes it down.
+    fn record(&self, log: &mut Log);
 }

@@ -12,14 +12,16 @@ use fixel::supersample::Level;
 use fixel::viewport::Viewport;
 use fixel::window::Window;
 
+use crate::emit::drawing::{self, Drawing, Nearer, Pixels};
+use crate::emit::log::Log;
 use crate::fixed::{FixedPicture, Pixel};
 use crate::scene::mp1::Scene;
 use crate::scene::{Fault, Place};
 
 mod canvas;
 mod primitive;
-mod program;
-mod units;
+pub(crate) mod program;
+pub(crate) mod units;
 
 use canvas::{Canvas, Views};
 use primitive::Brush;
@@ -46,12 +48,42 @@ pub fn draw(scene: &Scene) -> Result<FixedPicture, Fault> {
 /// # Errors
 /// As [`draw`].
 pub fn draw_part(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
-    let most = scene.width.max(scene.height) * scene.switches.fsaa;
-    if most <= <i32 as Word>::GUARD as u32 {
+    if most_samples(scene) <= <i32 as Word>::GUARD as u32 {
         with_word::<i32>(scene, window)
     } else {
         with_word::<i64>(scene, window)
     }
+}
+
+/// The scene's picture and what it is drawn from.
+///
+/// # Errors
+/// As [`draw`].
+pub fn recorded(scene: &Scene) -> Result<(FixedPicture, Option<Drawing>), Fault> {
+    let window = Window::new(0, 0, scene.width as i32, scene.height as i32);
+    let Units { shift, srgb } = Units::of(scene)?;
+    let wide = most_samples(scene) > <i32 as Word>::GUARD as u32;
+    let log = Log::new(Drawing {
+        width: scene.width,
+        height: scene.height,
+        level: scene.switches.fsaa,
+        wide,
+        depth: scene.switches.depth.then_some(Nearer::LessOrEqual),
+        pixels: Pixels::Blended(drawing::Units { shift, srgb }),
+        textures: Vec::new(),
+        lights: Vec::new(),
+        draws: Vec::new(),
+    });
+    let (picture, log) = if wide {
+        logged::<i64>(scene, window, Some(log))?
+    } else {
+        logged::<i32>(scene, window, Some(log))?
+    };
+    Ok((picture, log.map(Log::finish)))
+}
+
+fn most_samples(scene: &Scene) -> u32 {
+    scene.width.max(scene.height) * scene.switches.fsaa
 }
 
 /// With a certain word for the edges.
@@ -59,6 +91,11 @@ pub fn draw_part(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
 /// # Errors
 /// As [`draw`], and where the picture does not fit the word.
 pub fn with_word<W: Word>(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
+    let (picture, _) = logged::<W>(scene, window, None)?;
+    Ok(picture)
+}
+
+fn logged<W: Word>(scene: &Scene, window: Window, log: Option<Log>) -> Result<(FixedPicture, Option<Log>), Fault> {
     let start = Place { line: 1, column: 1 };
     let whole = |message: String| Fault::new(start, message);
     let fsaa = scene.switches.fsaa;
@@ -74,11 +111,13 @@ pub fn with_word<W: Word>(scene: &Scene, window: Window) -> Result<FixedPicture,
     let n = fsaa as i32;
     let samples = Window::new(window.left * n, window.top * n, window.right * n, window.bottom * n);
     let mut canvas = Canvas::new(samples, scene.switches.depth);
+    canvas.log = log;
     for (number, primitive) in (1..).zip(&scene.primitives) {
         let drawn = brush.draw(&mut canvas, number, &primitive.shape);
         drawn.map_err(|message| Fault::new(primitive.place, message))?;
     }
-    Ok(finish(&canvas, level, brush.units, window))
+    let picture = finish(&canvas, level, brush.units, window);
+    Ok((picture, canvas.log))
 }
 
 /// Resolved, encoded, cut off. A pixel's depth is that of its first sample.

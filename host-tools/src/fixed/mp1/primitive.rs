@@ -1,5 +1,7 @@
 //! Picks the fragment program for a primitive: the one that carries no more than it needs.
 
+use std::sync::Arc;
+
 use fixel::blend::Rgba;
 use fixel::depth::Depth;
 use fixel::draw;
@@ -13,6 +15,8 @@ use fixel::view::{self, Carried};
 use super::canvas::{Canvas, Draw, Views};
 use super::program::{Colors, Decal, Paint, Plain, Program, Sample, Sampler, Texels};
 use super::units::{self, Units};
+use crate::emit::drawing::Sampled;
+use crate::emit::log::{Log, Read};
 use crate::fixed::texcoord;
 use crate::lower;
 use crate::picture::Picture;
@@ -40,7 +44,7 @@ impl<W: Word> Brush<'_, W> {
         match shape {
             Shape::Triangle(vertices) => {
                 let (headroom, values) = self.colors(vertices);
-                self.triangle(canvas, number, vertices, values, || Colors { headroom });
+                self.triangle(canvas, number, vertices, values, Colors { headroom });
             }
             Shape::Textured(vertices, texture) => self.textured(canvas, number, vertices, texture)?,
             Shape::Point(size, vertex) => {
@@ -56,7 +60,7 @@ impl<W: Word> Brush<'_, W> {
                 // As many fraction bits as fit the longer side.
                 let longer = u32::from(texture.width().max(texture.height()));
                 let fraction_bits = longer.leading_zeros() - 2;
-                let paint = self.texels(texture, fraction_bits);
+                let paint = self.texels(canvas, picture, texture, fraction_bits);
                 let far = [texture.width(), texture.height()].map(|side| i32::from(side) << fraction_bits);
                 let size = units::size(*size, self.switches.fsaa)?;
                 canvas.draw(&Billboard(self, vertex, size, far, Program::new(paint, number)));
@@ -75,9 +79,19 @@ impl<W: Word> Brush<'_, W> {
         }
     }
 
-    fn texels<'t>(&self, texture: Texture<'t, Rgba8888>, fraction_bits: u32) -> Texels<'t> {
+    fn texels<'t>(
+        &self,
+        canvas: &mut Canvas,
+        picture: &Arc<Picture>,
+        texture: Texture<'t, Rgba8888>,
+        fraction_bits: u32,
+    ) -> Texels<'t> {
         Texels {
             sampler: Sampler::new(texture, fraction_bits),
+            sampled: Sampled {
+                texture: canvas.log.as_mut().map_or(0, |log| log.texture(picture)),
+                fraction_bits,
+            },
             shift: self.units.shift,
         }
     }
@@ -102,7 +116,7 @@ impl<W: Word> Brush<'_, W> {
         canvas: &mut Canvas,
         number: u32,
         vertices: &[Vertex; 3],
-        picture: &Picture,
+        picture: &Arc<Picture>,
     ) -> Result<(), String> {
         let texture = texture(picture)?;
         let (headroom, colors) = self.colors(vertices);
@@ -110,17 +124,19 @@ impl<W: Word> Brush<'_, W> {
         let coordinates = vertices.each_ref().map(units::texcoord);
         let periods = if headroom > 0 { |_| 0 } else { texcoord::towards_zero };
         let (st, fraction_bits) = texcoord::texels(coordinates, size, headroom, periods)?;
+        let texels = self.texels(canvas, picture, texture, fraction_bits);
         if self.switches.decals {
             let values = std::array::from_fn(|i| {
                 let ([r, g, b, alpha], [s, t]) = (colors[i], st[i]);
                 [r, g, b, alpha, s, t]
             });
-            self.triangle(canvas, number, vertices, values, || Decal {
+            let paint = Decal {
                 colors: Colors { headroom },
-                texels: self.texels(texture, fraction_bits),
-            });
+                texels,
+            };
+            self.triangle(canvas, number, vertices, values, paint);
         } else {
-            self.triangle(canvas, number, vertices, st, || self.texels(texture, fraction_bits));
+            self.triangle(canvas, number, vertices, st, texels);
         }
         Ok(())
     }
@@ -131,19 +147,19 @@ impl<W: Word> Brush<'_, W> {
         number: u32,
         vertices: &[Vertex; 3],
         values: [[i32; N]; 3],
-        paint: impl Fn() -> P,
+        paint: P,
     ) {
         if self.switches.hyp {
             canvas.draw(&Triangle(
                 self,
                 carrying(vertices, values),
-                Program::<Perspective<N>, P>::new(paint(), number),
+                Program::<Perspective<N>, P>::new(paint, number),
             ));
         } else {
             canvas.draw(&Triangle(
                 self,
                 carrying(vertices, values),
-                Program::<LinearFan<N>, P>::new(paint(), number),
+                Program::<LinearFan<N>, P>::new(paint, number),
             ));
         }
     }
@@ -187,11 +203,18 @@ struct Triangle<'b, W, V, P, const N: usize>(&'b Brush<'b, W>, [Carrying<N>; 3],
 
 impl<W: Word, V, P: Paint<N>, const N: usize> Draw for Triangle<'_, W, V, P, N>
 where
-    V: Carried<Vertex = [i32; N], Values = [i32; N]>,
+    V: Carried<Vertex = [i32; N], Values = [i32; N]> + Read,
 {
     fn draw(&self, color: &mut Buffer<'_, Sample>, depth: &mut impl Depth) {
         let Triangle(brush, vertices, program) = self;
         draw::primitive(&brush.views.triangles, color, depth, vertices, program);
+    }
+
+    fn record(&self, log: &mut Log) {
+        let Triangle(brush, vertices, program) = self;
+        log.program(program.described());
+        let view = &brush.views.triangles;
+        view.project::<V>(vertices, |polygon| log.polygon(polygon));
     }
 }
 
@@ -199,7 +222,7 @@ struct Line<'b, W, V, const WU: bool>(&'b Brush<'b, W>, [Carrying<4>; 2], Progra
 
 impl<W: Word, V, const WU: bool> Draw for Line<'_, W, V, WU>
 where
-    V: Carried<Vertex = [i32; 4], Values = [i32; 4]>,
+    V: Carried<Vertex = [i32; 4], Values = [i32; 4]> + Read,
 {
     fn draw(&self, color: &mut Buffer<'_, Sample>, depth: &mut impl Depth) {
         let Line(brush, ends, program) = self;
@@ -207,6 +230,14 @@ where
             draw::primitive_wu_line(&brush.views.others, color, depth, ends, program);
         } else {
             draw::primitive_segment(&brush.views.others, color, depth, ends, program);
+        }
+    }
+
+    fn record(&self, log: &mut Log) {
+        let Line(brush, ends, program) = self;
+        log.program(program.described());
+        if let Some(line) = brush.views.others.project_line::<V>(ends) {
+            log.line(&line, WU);
         }
     }
 }
@@ -219,6 +250,13 @@ impl<W: Word> Draw for Square<'_, W> {
         let position = lower::block(vertex.position);
         draw::primitive_square(&brush.views.others, color, depth, position, *size, Linear([]), program);
     }
+
+    fn record(&self, log: &mut Log) {
+        let Square(brush, vertex, size, program) = self;
+        log.program(program.described::<0>());
+        let center = brush.views.others.project_point(lower::block(vertex.position));
+        center.into_iter().for_each(|center| log.point(center, *size, false));
+    }
 }
 
 struct Disc<'b, W>(&'b Brush<'b, W>, &'b Vertex, SubPx, Program<Linear<0>, Plain>);
@@ -228,6 +266,13 @@ impl<W: Word> Draw for Disc<'_, W> {
         let Disc(brush, vertex, size, program) = self;
         let position = lower::block(vertex.position);
         draw::primitive_disc(&brush.views.others, color, depth, position, *size, Linear([]), program);
+    }
+
+    fn record(&self, log: &mut Log) {
+        let Disc(brush, vertex, size, program) = self;
+        log.program(program.described::<0>());
+        let center = brush.views.others.project_point(lower::block(vertex.position));
+        center.into_iter().for_each(|center| log.point(center, *size, true));
     }
 }
 
@@ -252,5 +297,12 @@ impl<W: Word> Draw for Billboard<'_, '_, W> {
             ([0; 2], *far),
             program,
         );
+    }
+
+    fn record(&self, log: &mut Log) {
+        let Billboard(brush, vertex, size, far, program) = self;
+        log.program(program.described());
+        let center = brush.views.others.project_point(lower::block(vertex.position));
+        center.into_iter().for_each(|center| log.billboard(center, *size, *far));
     }
 }

@@ -7,6 +7,8 @@ use fixel::fragment::{Antialiased, Fragment};
 use fixel::texture::{Nearest, Rgba8888, TowardsZero};
 use fixel::varying::Varying;
 
+use crate::emit::drawing::{self, Sampled};
+
 /// Nearest texels as MP1 rounds.
 pub type Sampler<'t> = Nearest<'t, Rgba8888, TowardsZero>;
 
@@ -23,6 +25,8 @@ pub struct Sample {
 pub trait Paint<const N: usize> {
     /// The colour.
     fn color(&self, values: [i32; N]) -> Rgba;
+    /// What it is.
+    fn described(&self) -> drawing::Paint;
 }
 
 /// One colour.
@@ -38,6 +42,8 @@ pub struct Colors {
 pub struct Texels<'t> {
     /// The texture.
     pub sampler: Sampler<'t>,
+    /// Its number in the log and the bits of its coordinates.
+    pub sampled: Sampled,
     /// Of the scene's colours.
     pub shift: u32,
 }
@@ -55,6 +61,9 @@ impl<const N: usize> Paint<N> for Plain {
     fn color(&self, _: [i32; N]) -> Rgba {
         self.0
     }
+    fn described(&self) -> drawing::Paint {
+        drawing::Paint::Plain(self.0)
+    }
 }
 
 impl Paint<4> for Colors {
@@ -70,12 +79,21 @@ impl Paint<4> for Colors {
             alpha,
         }
     }
+    fn described(&self) -> drawing::Paint {
+        drawing::Paint::Colors {
+            headroom: self.headroom,
+            opaque: false,
+        }
+    }
 }
 
 impl Paint<2> for Texels<'_> {
     #[inline(always)]
     fn color(&self, st: [i32; 2]) -> Rgba {
         Rgba::from_texel(self.sampler.texel(st), self.shift)
+    }
+    fn described(&self) -> drawing::Paint {
+        drawing::Paint::Texels(self.sampled)
     }
 }
 
@@ -84,6 +102,13 @@ impl Paint<6> for Decal<'_> {
     fn color(&self, [r, g, b, alpha, s, t]: [i32; 6]) -> Rgba {
         let below = self.colors.color([r, g, b, alpha]);
         self.texels.color([s, t]).over(below)
+    }
+    fn described(&self) -> drawing::Paint {
+        drawing::Paint::Decal {
+            sampled: self.texels.sampled,
+            headroom: self.colors.headroom,
+            opaque: false,
+        }
     }
 }
 
@@ -105,6 +130,14 @@ impl<V, P> Program<V, P> {
             primitive,
             varying: PhantomData,
         }
+    }
+
+    /// What it is, for the log.
+    pub fn described<const N: usize>(&self) -> drawing::Program
+    where
+        P: Paint<N>,
+    {
+        drawing::Program::Paint(self.paint.described())
     }
 
     fn blended(&self, color: Rgba, below: Sample) -> Sample {

@@ -13,7 +13,8 @@ use crate::scene::mp1::{Scene, Shape, Vertex};
 pub struct Units {
     /// How far the unit is from 2^-28.
     pub shift: u32,
-    srgb: bool,
+    /// Whether colours are decoded and encoded.
+    pub srgb: bool,
 }
 
 /// Vertices' colours may be this many times full.

@@ -1,0 +1,126 @@
+//! `host-render emit`: the scene as data and a draw function for firmware.
+
+use std::io::{self, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+
+use clap::Parser;
+
+use super::{Emitted, emit};
+use crate::args::Args;
+use crate::exit::{Exit, Failure};
+use crate::files;
+use crate::load::load;
+use crate::scene::format::Format;
+use crate::scene::iv::Shading;
+use crate::scene::size::Size;
+
+/// Writes a scene as Rust: its data, and a function that draws it with `fixel`, as few features as it takes.
+#[derive(Debug, Clone, Parser)]
+#[command(
+    name = "host-render emit",
+    after_help = "Exit codes: 0 written, 2 bad scene or bad usage, 3 file trouble, 4 internal error."
+)]
+pub struct Command {
+    /// Scene file
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+
+    /// The Rust file to write
+    #[arg(short, long, value_name = "FILE.rs")]
+    pub output: PathBuf,
+
+    /// Format of the scene [default: told from the text]
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+
+    /// Size of the picture, of iv and OBJ scenes [default: 500x500]
+    #[arg(long, value_name = "WxH")]
+    pub size: Option<Size>,
+
+    /// How faces get their colours, of iv and OBJ scenes [default: gouraud]
+    #[arg(long, value_enum)]
+    pub shading: Option<Shading>,
+
+    /// Add a dim light at the camera, to iv and OBJ scenes
+    #[arg(long)]
+    pub eyelight: bool,
+}
+
+impl Command {
+    /// The words of this command line below `emit`, if it is one.
+    pub fn asked() -> Option<Self> {
+        let mut words = std::env::args_os();
+        let program = words.next()?;
+        if words.next()? != "emit" {
+            return None;
+        }
+        Some(Self::parse_from(std::iter::once(program).chain(words)))
+    }
+
+    /// Does what it says and tells how it went.
+    pub fn run(&self) -> Exit {
+        let done = catch_unwind(AssertUnwindSafe(|| self.write()))
+            .unwrap_or_else(|payload| Err(Failure::panic(&self.scene, payload.as_ref())));
+        match done {
+            Ok(emitted) => self.print(&emitted),
+            Err(failure) => {
+                // If standard error is gone, there is nobody to tell; the exit code still does.
+                let _ = writeln!(io::stderr(), "{}", failure.message);
+                failure.exit
+            }
+        }
+    }
+
+    fn write(&self) -> Result<Emitted, Failure> {
+        let args = Args::of_scene(self.scene.clone(), self.format, self.size, self.shading, self.eyelight);
+        let loaded = load(&self.scene, &args)?;
+        let inputs = loaded.textures().chain(std::iter::once(self.scene.clone()));
+        let output = files::identity(&self.output);
+        if output.is_some() && inputs.into_iter().any(|input| files::identity(&input) == output) {
+            return Err(Failure::bad(format!(
+                "{}: its output {} would overwrite the scene or a texture",
+                self.scene.display(),
+                self.output.display()
+            )));
+        }
+        let emitted = emit(&loaded.scene, &self.origin()).map_err(|fault| Failure::scene(&self.scene, &fault))?;
+        files::stage(&self.output, emitted.text.clone().into_bytes())?.commit()?;
+        Ok(emitted)
+    }
+
+    /// The command as it would be typed in the scene's folder; whatever the names hold, one line.
+    fn origin(&self) -> String {
+        let name = |file: &Path| {
+            let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            name.escape_debug().to_string()
+        };
+        let mut origin = format!("host-render emit {} -o {}", name(&self.scene), name(&self.output));
+        if let Some(size) = self.size {
+            origin += &format!(" --size {}x{}", size.width(), size.height());
+        }
+        if let Some(shading) = self.shading {
+            origin += &format!(" --shading {}", format!("{shading:?}").to_lowercase());
+        }
+        if self.eyelight {
+            origin += " --eyelight";
+        }
+        origin
+    }
+
+    fn print(&self, emitted: &Emitted) -> Exit {
+        let mut out = io::stdout().lock();
+        let lines = emitted.requirements.lines();
+        let printed = lines
+            .iter()
+            .try_for_each(|line| writeln!(out, "{line}"))
+            .and_then(|()| out.flush());
+        match printed {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+                let _ = writeln!(io::stderr(), "cannot write to standard output: {error}");
+                Exit::Files
+            }
+            _ => Exit::Within,
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! Emitted scenes, compiled: they draw the bytes of `host-render`, whole and strip by strip.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use fixel_host::args::Args;
+use fixel_host::emit::{Emitted, emit, harness};
+use fixel_host::load::load;
+
+/// The root of the project.
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the project")
+}
+
+/// Scenes of a folder in the formats with these endings.
+fn scenes(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+    let mut files: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    files.retain(|file| {
+        endings
+            .iter()
+            .any(|ending| file.extension().is_some_and(|e| e == *ending))
+    });
+    files.sort();
+    files
+}
+
+fn emitted(file: &Path) -> (String, Emitted) {
+    let name = file.file_stem().unwrap().to_string_lossy().into_owned();
+    let args = Args::from(["host-render", file.to_str().unwrap(), "--size", "60x40"]);
+    let args = match file.extension().and_then(|e| e.to_str()) {
+        Some("txt") => Args::from(["host-render", file.to_str().unwrap()]),
+        _ => args,
+    };
+    let loaded = load(file, &args.unwrap()).unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
+    let emitted = emit(&loaded.scene, "a test").unwrap_or_else(|fault| panic!("{name}: {fault}"));
+    (name, emitted)
+}
+
+const MAIN: &str = r#"
+#![deny(warnings)]
+#![forbid(unsafe_code)]
+
+use std::io::Write;
+
+fn main() {
+    let rows: u16 = std::env::args().nth(1).and_then(|rows| rows.parse().ok()).expect("rows");
+    let mut out = std::io::stdout().lock();
+    for (_, width, height, level, strip) in emitted::SCENES {
+        let mut top = 0;
+        while top < height {
+            let bottom = height.min(top.saturating_add(rows));
+            let count = usize::from(width) * usize::from(bottom - top);
+            let samples = count * usize::from(level) * usize::from(level);
+            let mut memory = emitted::Memory {
+                samples: &mut vec![fixel::blend::Rgba::default(); samples],
+                bytes: &mut vec![[1; 4]; count],
+                depths: &mut vec![0; samples],
+            };
+            strip(&mut memory, top, bottom).expect("the memory is large enough");
+            out.write_all(memory.bytes.as_flattened()).expect("written");
+            top = bottom;
+        }
+    }
+}
+"#;
+
+/// A crate of all the scenes, in a folder of its own.
+fn build(name: &str, scenes: &[(String, Emitted)]) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(folder.join("src")).unwrap();
+    let manifest = format!(
+        "[package]\nname = \"emitted\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\nfixel = {{ path = {:?} }}\n\n\
+         [profile.dev]\nopt-level = 1\ndebug = false\n\n[workspace]\n",
+        root()
+    );
+    fs::write(folder.join("Cargo.toml"), manifest).unwrap();
+    fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
+    let lib = format!(
+        "#![no_std]\n#![deny(warnings)]\n#![forbid(unsafe_code)]\n\n{}",
+        harness::file(scenes)
+    );
+    fs::write(folder.join("src/lib.rs"), lib).unwrap();
+    fs::write(folder.join("src/main.rs"), MAIN).unwrap();
+    let built = Command::new(env!("CARGO"))
+        .args(["build", "--offline", "--quiet", "--target-dir"])
+        .arg(folder.join("target"))
+        .current_dir(&folder)
+        .output()
+        .expect("cargo runs");
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    folder.join("target/debug/emitted")
+}
+
+/// Compares the bytes of all scenes, drawn in strips of so many rows.
+fn compare(program: &Path, rows: u16, scenes: &[(String, Emitted)]) {
+    let output = Command::new(program).arg(rows.to_string()).output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut drawn = output.stdout.as_slice();
+    let mut differing = Vec::new();
+    for (name, emitted) in scenes {
+        let wanted = emitted.bytes.as_flattened();
+        let (bytes, rest) = drawn.split_at_checked(wanted.len()).expect("as many bytes as pixels");
+        drawn = rest;
+        let differ = wanted.chunks(4).zip(bytes.chunks(4)).filter(|(a, b)| a != b).count();
+        if differ > 0 {
+            differing.push(format!("{name}: {differ} pixels"));
+        }
+    }
+    assert!(drawn.is_empty());
+    assert!(differing.is_empty(), "in strips of {rows} rows differ {differing:#?}");
+}
+
+/// As rustfmt would have written it, on lines of its default length.
+fn check_format(scenes: &[(String, Emitted)]) {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |(name, emitted): &(String, Emitted)| {
+        let file = folder.path().join(format!("{name}.rs"));
+        fs::write(&file, &emitted.text).unwrap();
+        file
+    };
+    let files: Vec<_> = scenes.iter().map(write).collect();
+    let checked = Command::new("rustfmt")
+        .args(["--check", "--edition", "2024", "--config", "max_width=100"])
+        .args(files)
+        .output();
+    match checked {
+        Ok(output) => assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout)),
+        Err(error) => eprintln!("SKIPPED: rustfmt does not run, no file's format is checked: {error}"),
+    }
+}
+
+fn check(name: &str, files: &[PathBuf]) {
+    let scenes: Vec<_> = files.iter().map(|file| emitted(file)).collect();
+    let program = build(name, &scenes);
+    for rows in [u16::MAX, 16, 7] {
+        compare(&program, rows, &scenes);
+    }
+    let unneeded = scenes.iter().filter(|(_, e)| e.text.contains("NoDepth")).count();
+    println!(
+        "{name}: {} scenes compared, {unneeded} of them without depth buffer",
+        scenes.len()
+    );
+}
+
+#[test]
+fn own_scenes_draw_the_same_bytes() {
+    let mut files = scenes(&root().join("tests/scenes"), &["txt", "iv", "obj"]);
+    // Fine patches and many lights: minutes to analyse without optimisation.
+    let slow = ["hundred-lights.txt", "patches-fine.txt"];
+    files.retain(|file| !slow.iter().any(|name| file.ends_with(name)));
+    eprintln!("SKIPPED: {} take minutes", slow.join(", "));
+    assert!(files.len() > 30);
+    check("emitted-own", &files);
+}
+
+#[test]
+fn conformance_scenes_draw_the_same_bytes() {
+    let Some(folder) = std::env::var_os("FIXEL_CONFORMANCE") else {
+        eprintln!("SKIPPED: FIXEL_CONFORMANCE is not set, no official scene is emitted");
+        return;
+    };
+    let folder = Path::new(&folder);
+    let mut files = scenes(&folder.join("hw2"), &["txt"]);
+    files.extend(scenes(&folder.join("mp1"), &["txt"]));
+    assert_eq!(files.len(), 48);
+    let emitted: Vec<_> = files.iter().map(|file| emitted(file)).collect();
+    check_format(&emitted);
+    check("emitted-conformance", &files);
+}
+
+fn command(arguments: &[&str]) -> (Option<i32>, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_host-render"))
+        .arg("emit")
+        .args(arguments)
+        .output()
+        .expect("it runs");
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.code(), String::from_utf8_lossy(&text).into_owned())
+}
+
+#[test]
+fn the_command_writes_the_file_or_leaves_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (scene, out) = (at("scene.txt"), at("scene.rs"));
+    fs::write(
+        &scene,
+        "png 8 8 a.png\nxyz -1 -1 0\nxyz 1 -1 0\nxyz 1 1 0\ntrif 1 2 3\n",
+    )
+    .unwrap();
+    let (code, text) = command(&[&scene, "-o", &out]);
+    assert_eq!(code, Some(0), "{text}");
+    for told in ["flash: ", "RAM: ", "instructions: ", "depth buffer: none"] {
+        assert!(text.contains(told), "{text}");
+    }
+    let written = fs::read_to_string(&out).unwrap();
+    assert!(written.starts_with("// Made by: host-render emit scene.txt -o scene.rs\n"));
+
+    fs::write(&scene, "png 8 8 a.png\ntrif 1 2 3\n").unwrap();
+    let (code, text) = command(&[&scene, "-o", &out]);
+    assert_eq!(code, Some(2));
+    assert!(text.contains("line 2, column 6"), "{text}");
+    assert_eq!(fs::read_to_string(&out).unwrap(), written);
+
+    assert_eq!(command(&[&scene]).0, Some(2), "without --output");
+    assert_eq!(command(&[&at("nosuch.txt"), "-o", &out]).0, Some(3));
+    fs::write(&scene, "png 8 8 a.png\n").unwrap();
+    assert_eq!(command(&[&scene, "-o", &scene]).0, Some(2), "over the scene");
+    assert_eq!(command(&[&scene, "-o", &at("no/such/folder.rs")]).0, Some(3));
+    assert_eq!(fs::read_to_string(&scene).unwrap(), "png 8 8 a.png\n");
+}
