@@ -7,8 +7,13 @@ use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var("OUT_DIR")?);
-    fs::copy("mps2.x", out.join("memory.x"))?;
-    println!("cargo:rerun-if-changed=mps2.x");
+    let memory = if env::var_os("CARGO_FEATURE_MICROBIT").is_some() {
+        "microbit.x"
+    } else {
+        "mps2.x"
+    };
+    fs::copy(memory, out.join("memory.x"))?;
+    println!("cargo:rerun-if-changed={memory}");
     println!("cargo:rustc-link-search={}", out.display());
     // Here and not in a cargo configuration, which RUSTFLAGS and another working directory would do away with.
     println!("cargo:rustc-link-arg-bins=-Tlink.x");

@@ -1,9 +1,12 @@
 //! What the Cortex-M images share: counting instructions and reporting lines.
 //!
-//! Under `-icount shift=0` the emulator's clock advances by 1 ns an instruction, and the 25 MHz SysTick of the MPS2
-//! boards derives from that clock: one tick is exactly 40 instructions, whatever the host.
+//! Under `-icount shift=0` the emulator's clock advances by 1 ns an instruction, and SysTick derives from that clock: one
+//! tick is exactly 40 instructions at the 25 MHz of the MPS2 boards and 62.5 at the 16 MHz of the micro:bit, whatever the
+//! host.
 
 #![no_std]
+
+pub mod stack;
 
 use core::sync::atomic::{Ordering::SeqCst, compiler_fence};
 
@@ -12,8 +15,8 @@ use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
 use cortex_m_semihosting::hprintln;
 use fixel_workloads::machine::{Line, Machine};
 
-/// Instructions in a tick of SysTick: 1 ns each, at 25 MHz.
-const PER_TICK: u32 = 40;
+/// Instructions in two ticks of SysTick: 1 ns each.
+const PER_TWO_TICKS: u64 = if cfg!(feature = "microbit") { 125 } else { 80 };
 
 /// SysTick has 24 bits.
 const TICKS: u32 = 0x00ff_ffff;
@@ -33,7 +36,7 @@ impl Board {
         // The delay loop is two instructions, passed once more than asked for.
         let counted = board.count(|| cortex_m::asm::delay(1_499_999));
         assert!(
-            counted.abs_diff(3_000_000) <= 3 * PER_TICK,
+            counted.abs_diff(3_000_000) as u64 <= 2 * PER_TWO_TICKS,
             "calibration: 3000000 instructions counted as {counted}; the emulator needs -icount shift=0"
         );
         board
@@ -58,7 +61,9 @@ impl Machine for Board {
             "a region longer than one period of SysTick"
         );
         self.systick.disable_counter();
-        (start.wrapping_sub(end) & TICKS) * PER_TICK
+        let ticks = start.wrapping_sub(end) & TICKS;
+        // Below 2^24 · 63.
+        (u64::from(ticks) * PER_TWO_TICKS / 2) as u32
     }
 
     fn report(&mut self, line: &Line<'_>) {
@@ -74,3 +79,38 @@ pub fn run(program: impl FnOnce(&mut Board) -> bool) -> ! {
         debug::exit(if done { EXIT_SUCCESS } else { EXIT_FAILURE });
     }
 }
+
+/// The whole of an image that draws by a function of `fixel_workloads::sizes` and does nothing else. Its panic handler is in
+/// the image only if something can panic.
+#[macro_export]
+macro_rules! bare_image {
+    ($draw:path) => {
+        #[panic_handler]
+        fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+            loop {}
+        }
+
+        #[$crate::entry]
+        fn main() -> ! {
+            static mut MEMORY: fixel_workloads::scenes::StripMemory = fixel_workloads::scenes::StripMemory::new();
+
+            // Where a firmware has its own: nothing that the compiler could know.
+            let matrix = core::hint::black_box([1; 16]);
+            let points = core::hint::black_box([([1; 4], [2; 3]); 6]);
+            let texels = core::hint::black_box([3; 256]);
+            let input = fixel_workloads::sizes::Input {
+                matrix,
+                points: &points,
+                texels: &texels,
+            };
+            let mut part = MEMORY.cleared(0, fixel_workloads::scenes::STRIP);
+            let _ = core::hint::black_box($draw(&mut part, &input));
+            loop {
+                $crate::wait();
+            }
+        }
+    };
+}
+
+pub use cortex_m::asm::wfi as wait;
+pub use cortex_m_rt::entry;

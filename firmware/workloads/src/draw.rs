@@ -2,11 +2,14 @@
 //!
 //! One function per kind of drawing, never inlined: its code can be found and read in the image.
 
+use core::hint::black_box;
+
 use fixel::depth::NoDepth;
 use fixel::draw::triangle;
-use fixel::fragment::{Flat, Gouraud565};
+use fixel::fragment::{Flat565, Gouraud565};
 use fixel::screen::Corner;
-use fixel::varying::Linear;
+use fixel::texture::Tiled565;
+use fixel::varying::{Color565, Perspective32};
 
 use crate::bytes::Vertex;
 use crate::frame::Frame;
@@ -14,7 +17,42 @@ use crate::frame::Frame;
 /// A triangle of one colour.
 pub type FlatTriangle = ([Corner<()>; 3], u16);
 /// A triangle with a colour at each corner.
-pub type GouraudTriangle = [Corner<Linear<3>>; 3];
+pub type GouraudTriangle = [Corner<Color565>; 3];
+
+/// A textured triangle in perspective.
+pub type TexturedTriangle = [Corner<Perspective32<2>>; 3];
+
+/// Texels of a side of [`TEXTURE`].
+pub const TEXTURE_SIDE: usize = 64;
+
+/// Every texel is its own place, v·64 + u, so that a wrong one is seen.
+pub static TEXTURE: [[u16; TEXTURE_SIDE]; TEXTURE_SIDE] = {
+    let mut texels = [[0; TEXTURE_SIDE]; TEXTURE_SIDE];
+    let mut place = 0;
+    while place < TEXTURE_SIDE * TEXTURE_SIDE {
+        texels[place / TEXTURE_SIDE][place % TEXTURE_SIDE] = place as u16;
+        place += 1;
+    }
+    texels
+};
+
+/// `corners` for [`textured_depth`].
+pub fn prepare_textured(corners: [Vertex; 3]) -> TexturedTriangle {
+    corners.map(Vertex::textured)
+}
+
+/// Texels in perspective, a division at every pixel, with depth.
+#[inline(never)]
+pub fn textured_depth(frame: &mut Frame, triangles: &[TexturedTriangle]) {
+    let Ok((mut color, mut depth)) = frame.with_depth() else {
+        return;
+    };
+    // Textures are loaded, in general: their address is no constant.
+    let texture = Tiled565::new(black_box(&TEXTURE));
+    for corners in triangles {
+        triangle(&mut color, &mut depth, corners, &texture);
+    }
+}
 
 /// `corners` for [`flat`] and [`flat_depth`]: the colour is the first corner's.
 pub fn prepare_flat(corners: [Vertex; 3]) -> FlatTriangle {
@@ -32,7 +70,7 @@ pub fn prepare_gouraud(corners: [Vertex; 3]) -> GouraudTriangle {
 pub fn flat(frame: &mut Frame, triangles: &[FlatTriangle]) {
     let Ok(mut color) = frame.color() else { return };
     for (corners, pixel) in triangles {
-        triangle(&mut color, &mut NoDepth, *corners, &Flat(*pixel));
+        triangle(&mut color, &mut NoDepth, corners, &Flat565::new(*pixel));
     }
 }
 
@@ -43,7 +81,7 @@ pub fn flat_depth(frame: &mut Frame, triangles: &[FlatTriangle]) {
         return;
     };
     for (corners, pixel) in triangles {
-        triangle(&mut color, &mut depth, *corners, &Flat(*pixel));
+        triangle(&mut color, &mut depth, corners, &Flat565::new(*pixel));
     }
 }
 
@@ -52,7 +90,7 @@ pub fn flat_depth(frame: &mut Frame, triangles: &[FlatTriangle]) {
 pub fn gouraud(frame: &mut Frame, triangles: &[GouraudTriangle]) {
     let Ok(mut color) = frame.color() else { return };
     for corners in triangles {
-        triangle(&mut color, &mut NoDepth, *corners, &Gouraud565);
+        triangle(&mut color, &mut NoDepth, corners, &Gouraud565);
     }
 }
 
@@ -63,6 +101,6 @@ pub fn gouraud_depth(frame: &mut Frame, triangles: &[GouraudTriangle]) {
         return;
     };
     for corners in triangles {
-        triangle(&mut color, &mut depth, *corners, &Gouraud565);
+        triangle(&mut color, &mut depth, corners, &Gouraud565);
     }
 }

@@ -59,6 +59,16 @@ impl Frame {
         Ok((color, depth))
     }
 
+    /// Colours and depths, row by row.
+    pub fn words(&self) -> (&[u16], &[u16]) {
+        (&self.color, &self.depth)
+    }
+
+    /// The colours, row by row.
+    pub fn pixels(&mut self) -> &mut [u16] {
+        &mut self.color
+    }
+
     /// CRC-32 of colour and of depth.
     pub fn checksums(&self) -> (u32, u32) {
         (crc32(&self.color), crc32(&self.depth))
@@ -73,13 +83,37 @@ impl Default for Frame {
 
 /// The CRC-32 of zip and PNG over the little-endian bytes of `words`.
 pub(crate) fn crc32(words: &[u16]) -> u32 {
-    const REVERSED_POLYNOMIAL: u32 = 0xedb8_8320;
-    let bytes = words.iter().flat_map(|word| word.to_le_bytes());
-    !bytes.fold(!0, |crc, byte| {
-        (0..8).fold(crc ^ byte as u32, |crc, _| {
-            (crc >> 1) ^ if crc & 1 != 0 { REVERSED_POLYNOMIAL } else { 0 }
-        })
-    })
+    let mut crc = Crc32::default();
+    crc.update(words);
+    crc.value()
+}
+
+/// The CRC-32 of zip and PNG over the little-endian bytes of words that come piece by piece.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Crc32(u32);
+
+impl Default for Crc32 {
+    fn default() -> Self {
+        Crc32(!0)
+    }
+}
+
+impl Crc32 {
+    /// More words.
+    pub fn update(&mut self, words: &[u16]) {
+        const REVERSED_POLYNOMIAL: u32 = 0xedb8_8320;
+        let bytes = words.iter().flat_map(|word| word.to_le_bytes());
+        self.0 = bytes.fold(self.0, |crc, byte| {
+            (0..8).fold(crc ^ byte as u32, |crc, _| {
+                (crc >> 1) ^ if crc & 1 != 0 { REVERSED_POLYNOMIAL } else { 0 }
+            })
+        });
+    }
+
+    /// Of all words so far.
+    pub fn value(self) -> u32 {
+        !self.0
+    }
 }
 
 #[cfg(test)]

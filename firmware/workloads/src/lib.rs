@@ -8,9 +8,14 @@
 
 pub mod bytes;
 pub mod draw;
+pub mod everything;
 pub mod flat;
 pub mod frame;
 pub mod machine;
+pub mod mesh;
 pub mod model;
 pub mod program;
+pub mod scenes;
 pub mod shapes;
+pub mod sizes;
+pub mod stack;

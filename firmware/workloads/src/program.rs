@@ -7,9 +7,12 @@ use fixel::span::{doubled_area, scan};
 use heapless::{String, Vec};
 
 use crate::bytes::{Vertex, triangles};
-use crate::draw::{flat, flat_depth, gouraud, gouraud_depth, prepare_flat, prepare_gouraud};
+use crate::draw::{
+    flat, flat_depth, gouraud, gouraud_depth, prepare_flat, prepare_gouraud, prepare_textured, textured_depth,
+};
 use crate::frame::Frame;
 use crate::machine::{Line, Machine};
+use crate::mesh;
 use crate::shapes::{REPEATS, SHAPES, Shape};
 
 /// Triangles prepared at a time: a workload of more is measured in as many pieces.
@@ -23,6 +26,13 @@ pub fn run(machine: &mut impl Machine, frame: &mut Frame, file: &[u8]) {
     if let Some(triangles) = triangles(file, "W2") {
         measure(machine, frame, "W2", triangles, prepare_gouraud, gouraud_depth);
     }
+    if let Some(triangles) = triangles(file, "W3") {
+        measure(machine, frame, "W3_exact", triangles, prepare_textured, textured_depth);
+    }
+    if let Some(triangles) = triangles(file, "W4") {
+        measure(machine, frame, "W4", triangles, prepare_gouraud, gouraud_depth);
+    }
+    mesh::run(machine, frame, file);
     for shape in SHAPES {
         measure_shape(machine, frame, "flat", shape, prepare_flat, flat);
         measure_shape(machine, frame, "flat_depth", shape, prepare_flat, flat_depth);

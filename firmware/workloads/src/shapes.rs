@@ -51,6 +51,8 @@ impl Shape {
             y: y << 8,
             depth: depth << 15,
             color,
+            inverse_w: 1 << 30,
+            texel: [0; 2],
         };
         [
             corner(0, 0, 20_000, [250, 10, 90]),

@@ -12,7 +12,7 @@ use fixel::light::world::{FULL, Material, Specular};
 use fixel::mesh::{Cache, Normalized};
 use fixel::num::Block;
 use fixel::target::Buffer;
-use fixel::varying::Linear;
+use fixel::varying::Color565;
 use fixel::view::{Cull, Vertex, View};
 use fixel::viewport::Viewport;
 
@@ -39,7 +39,7 @@ pub fn vertices(object: &Object<'_>) -> u32 {
 pub fn polygons(object: &Object<'_>, view: &View<i32, i32, 0>) -> u32 {
     let mut polygons = 0;
     triangles(object, |corners| {
-        view.project::<Linear<3>>(corners, |polygon| {
+        view.project::<Color565>(corners, |polygon| {
             black_box(polygon);
             polygons += 1;
         });
@@ -127,8 +127,8 @@ mod tests {
 
     #[test]
     fn colors_are_those_of_bytes() {
-        let Linear(white) = Gouraud565::corner(255, 255, 255);
-        let Linear(black) = Gouraud565::corner(0, 0, 0);
+        let Color565(white) = Gouraud565::corner(255, 255, 255);
+        let Color565(black) = Gouraud565::corner(0, 0, 0);
         assert_eq!([rgb565([FULL; 3]), rgb565([-1; 3])], [white, black]);
     }
 }

@@ -5,6 +5,7 @@
 //! host's instructions in the core's draw calls.
 
 use std::ffi::OsStr;
+use std::path::Path;
 use std::process::Command;
 use std::{env, io};
 
@@ -132,6 +133,15 @@ fn count_case(case: &str) -> Result<u64, Failure> {
 /// Instructions that this program, run with `arguments`, spends in `function`.
 pub fn count(function: &str, arguments: impl IntoIterator<Item: AsRef<OsStr>>) -> Result<u64, Failure> {
     let program = env::current_exe().map_err(|e| Failure::trouble("this program", e))?;
+    count_in(&program, function, arguments)
+}
+
+/// Instructions that `program`, run with `arguments`, spends in `function`.
+pub fn count_in(
+    program: &Path,
+    function: &str,
+    arguments: impl IntoIterator<Item: AsRef<OsStr>>,
+) -> Result<u64, Failure> {
     let output = Command::new("valgrind")
         .args([
             "--tool=callgrind",
@@ -148,10 +158,25 @@ pub fn count(function: &str, arguments: impl IntoIterator<Item: AsRef<OsStr>>) -
             _ => Failure::trouble("valgrind", e),
         })?;
     let report = String::from_utf8_lossy(&output.stderr);
-    let collected = report
+    collected(&report).ok_or_else(|| Failure::Trouble(format!("valgrind counted nothing:\n{report}")))
+}
+
+/// The count in valgrind's report; `None` where nothing was counted.
+fn collected(report: &str) -> Option<u64> {
+    let count = report
         .lines()
         .find_map(|line| line.split_once("Collected : ")?.1.trim().parse().ok());
-    collected
-        .filter(|&count| count > 0)
-        .ok_or_else(|| Failure::Trouble(format!("valgrind counted nothing:\n{report}")))
+    count.filter(|&count| count > 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::collected;
+
+    #[test]
+    fn nothing_counted_is_no_count() {
+        assert_eq!(collected("==1== Events    : Ir\n==1== Collected : 123\n"), Some(123));
+        assert_eq!(collected("==1== Collected : 0\n"), None);
+        assert_eq!(collected("no such program\n"), None);
+    }
 }

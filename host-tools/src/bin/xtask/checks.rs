@@ -1,15 +1,59 @@
 //! `cargo xtask firmware`: every image on every board, bits against the host, counts against their limits.
 
-use crate::board::{BOARDS, Board};
+use clap::ValueEnum;
+
+use crate::board::{BOARDS, Board, M4, require_emulators};
 use crate::failure::Failure;
 use crate::limits::Limits;
 use crate::outcome::{Outcome, find};
 use crate::toolchain::Toolchain;
 use crate::workloads::Workloads;
-use crate::{emulator, flat, host, image};
+use crate::{demos, emulator, flat, host, image, proofs, scenes, sizes};
 
-/// Checks everything; `update_limits` stores the counts instead of judging them.
-pub fn run(update_limits: bool) -> Result<(), Failure> {
+/// What can be asked for alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Part {
+    /// Cost of the workloads, of a flat program, bits of both.
+    Counts,
+    /// Bits of the scenes.
+    Scenes,
+    /// No panic, no float, no recursion.
+    Proofs,
+    /// The demos' pictures.
+    Demos,
+    /// Flash per set of features, stack per kind of triangle.
+    Sizes,
+}
+
+/// Checks everything, or a part; `update_limits` stores the counts instead of judging them.
+pub fn run(update_limits: bool, only: Option<Part>) -> Result<(), Failure> {
+    let wants = |part| only.is_none_or(|only| only == part);
+    require_emulators(&BOARDS)?;
+    let mut off = Vec::new();
+    if wants(Part::Scenes) {
+        off.extend(scenes::check()?);
+    }
+    if wants(Part::Proofs) {
+        off.extend(proofs::check()?);
+    }
+    if wants(Part::Demos) {
+        off.extend(demos::check(None)?);
+    }
+    if wants(Part::Sizes) {
+        off.extend(sizes::check(update_limits)?);
+    }
+    if wants(Part::Counts) {
+        off.extend(counts(update_limits)?);
+    }
+    if off.is_empty() {
+        Ok(())
+    } else {
+        Err(Failure::Off(off.join("\n")))
+    }
+}
+
+/// The measuring image and the flat ones; limits are stored if nothing else is off.
+fn counts(update_limits: bool) -> Result<Vec<String>, Failure> {
     let bytes = match Workloads::find(None)? {
         Some(workloads) => workloads.to_bytes()?,
         None => {
@@ -19,11 +63,11 @@ pub fn run(update_limits: bool) -> Result<(), Failure> {
     };
     let expected = host::run(&bytes);
     let mut limits = Limits::read()?;
-    let mut off = Vec::new();
+    let mut off = flat::check(&M4, &Toolchain::find(M4.target)?)?;
     for board in &BOARDS {
         let toolchain = Toolchain::find(board.target)?;
         let outcomes = measure(board, &toolchain, &bytes)?;
-        let differing = differing(board, &outcomes, &expected);
+        let differing = differing(board.key, &outcomes, &expected);
         println!(
             "{} ({}, rustc {}): {} pictures, {} differ from the host's",
             board.core,
@@ -33,19 +77,18 @@ pub fn run(update_limits: bool) -> Result<(), Failure> {
             differing.len()
         );
         off.extend(differing);
-        off.extend(flat::check(board, &toolchain)?);
         if update_limits {
-            limits.update(board, toolchain.version(), &outcomes);
+            limits.update(board.key, toolchain.version(), &outcomes);
         } else {
-            let verdict = limits.compare(board, toolchain.version(), &outcomes);
+            let verdict = limits.compare(board.key, toolchain.version(), &outcomes);
             verdict.notes.iter().for_each(|note| println!("note: {note}"));
             off.extend(verdict.over);
         }
     }
-    if !off.is_empty() {
-        return Err(Failure::Off(off.join("\n")));
+    if update_limits && off.is_empty() {
+        limits.write()?;
     }
-    if update_limits { limits.write() } else { Ok(()) }
+    Ok(off)
 }
 
 /// Builds and runs the measuring image.
@@ -55,14 +98,14 @@ pub fn measure(board: &Board, toolchain: &Toolchain, workloads: &[u8]) -> Result
 }
 
 /// What the board drew otherwise than the host.
-pub fn differing(board: &Board, outcomes: &[Outcome], expected: &[Outcome]) -> Vec<String> {
+pub fn differing(board: &str, outcomes: &[Outcome], expected: &[Outcome]) -> Vec<String> {
     let complaint = |host: &Outcome| match find(outcomes, &host.name) {
         Some(there) if there.same_bits(host) => None,
         Some(there) => Some(format!(
-            "{} {}: {} px, colour {:08x}, depth {:08x}; the host: {} px, {:08x}, {:08x}",
-            board.key, host.name, there.units, there.color, there.depth, host.units, host.color, host.depth
+            "{board} {}: {} px, colour {:08x}, depth {:08x}; the host: {} px, {:08x}, {:08x}",
+            host.name, there.units, there.color, there.depth, host.units, host.color, host.depth
         )),
-        None => Some(format!("{} {}: not drawn", board.key, host.name)),
+        None => Some(format!("{board} {}: not drawn", host.name)),
     };
     expected.iter().filter_map(complaint).collect()
 }

@@ -1,11 +1,12 @@
 //! The core on the targets it is for.
 
+use crate::board::{M0, M4, RISCV};
 use crate::failure::Failure;
 use crate::image::{root, run, target_dir};
 use crate::toolchain::Toolchain;
 
 /// Without and with floating-point registers, without and with a divider.
-const TARGETS: [&str; 2] = ["thumbv6m-none-eabi", "thumbv7em-none-eabihf"];
+const TARGETS: [&str; 3] = [M0.target, M4.target, RISCV.target];
 
 /// Builds the core for each target, with all features and with none.
 pub fn run_all() -> Result<(), Failure> {

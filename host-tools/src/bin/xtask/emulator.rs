@@ -35,34 +35,30 @@ pub fn run(board: &Board, image: &Path) -> Result<String, Failure> {
 
 fn wait(board: &Board, image: &Path, output: &File) -> Result<ExitStatus, Failure> {
     let stdout = output.try_clone().map_err(|e| Failure::trouble("temporary file", e))?;
-    let mut child = Command::new(board.emulator)
+    let program = board.emulator.program;
+    let mut child = Command::new(program)
         .args(["-M", board.machine, "-nographic", "-monitor", "none", "-serial", "null"])
-        // One instruction is one nanosecond of the emulated clock: what the counts rest on.
-        .args([
-            "-semihosting-config",
-            "enable=on,target=native",
-            "-icount",
-            "shift=0",
-            "-kernel",
-        ])
+        .args(["-semihosting-config", "enable=on,target=native"])
+        .args(board.emulator.options)
+        .arg("-kernel")
         .arg(image)
         .stdin(Stdio::null())
         .stdout(stdout)
         .spawn()
         .map_err(|e| match e.kind() {
-            ErrorKind::NotFound => Failure::Usage(missing(board)),
-            _ => Failure::trouble(board.emulator, e),
+            ErrorKind::NotFound => Failure::Usage(board.without_emulator()),
+            _ => Failure::trouble(program, e),
         })?;
     let end = Instant::now() + TIMEOUT;
     loop {
-        if let Some(status) = child.try_wait().map_err(|e| Failure::trouble(board.emulator, e))? {
+        if let Some(status) = child.try_wait().map_err(|e| Failure::trouble(program, e))? {
             return Ok(status);
         }
         if Instant::now() > end {
             child
                 .kill()
                 .and_then(|()| child.wait())
-                .map_err(|e| Failure::trouble(board.emulator, e))?;
+                .map_err(|e| Failure::trouble(program, e))?;
             return Err(Failure::Off(format!(
                 "the image on {} did not end within {TIMEOUT:?}",
                 board.machine
@@ -70,11 +66,4 @@ fn wait(board: &Board, image: &Path, output: &File) -> Result<ExitStatus, Failur
         }
         sleep(Duration::from_millis(20));
     }
-}
-
-fn missing(board: &Board) -> String {
-    format!(
-        "the emulator {0} for {1} is not installed; on Debian: apt-get install --no-install-recommends {0}",
-        board.emulator, board.core
-    )
 }

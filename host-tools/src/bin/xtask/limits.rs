@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use serde_json::{Map, Value, json};
 
-use crate::board::Board;
 use crate::failure::Failure;
 use crate::image::root;
 use crate::outcome::Outcome;
@@ -22,9 +21,9 @@ pub struct Verdict {
     pub notes: Vec<String>,
 }
 
-/// The limits of all boards, each with the compiler that they belong to.
+/// The limits of all machines, each with the compiler that they belong to.
 pub struct Limits {
-    boards: Map<String, Value>,
+    machines: Map<String, Value>,
 }
 
 impl Limits {
@@ -36,20 +35,20 @@ impl Limits {
     pub fn read() -> Result<Self, Failure> {
         let file = Self::file();
         let text = fs::read_to_string(&file).map_err(|e| Failure::trouble(file.display(), e))?;
-        let boards = serde_json::from_str(&text).map_err(|e| Failure::trouble(file.display(), e))?;
-        Ok(Limits { boards })
+        let machines = serde_json::from_str(&text).map_err(|e| Failure::trouble(file.display(), e))?;
+        Ok(Limits { machines })
     }
 
     /// Stores these limits.
     pub fn write(&self) -> Result<(), Failure> {
         let file = Self::file();
-        let text = format!("{:#}\n", Value::Object(self.boards.clone()));
+        let text = format!("{:#}\n", Value::Object(self.machines.clone()));
         fs::write(&file, text).map_err(|e| Failure::trouble(file.display(), e))
     }
 
-    /// Makes `outcomes` the limits of `board`; what was not drawn this time keeps its own.
-    pub fn update(&mut self, board: &Board, compiler: &str, outcomes: &[Outcome]) {
-        let entry = self.boards.entry(board.key).or_insert_with(|| json!({"counts": {}}));
+    /// Makes `outcomes` the limits of `machine`; what was not drawn this time keeps its own.
+    pub fn update(&mut self, machine: &str, compiler: &str, outcomes: &[Outcome]) {
+        let entry = self.machines.entry(machine).or_insert_with(|| json!({"counts": {}}));
         entry["compiler"] = compiler.into();
         for outcome in outcomes {
             entry["counts"][&outcome.name] = json!({"instructions": outcome.instructions, "pixels": outcome.units});
@@ -57,29 +56,38 @@ impl Limits {
     }
 
     /// Compares. Counts of another compiler are other counts: they are noted, not judged.
-    pub fn compare(&self, board: &Board, compiler: &str, outcomes: &[Outcome]) -> Verdict {
+    pub fn compare(&self, machine: &str, compiler: &str, outcomes: &[Outcome]) -> Verdict {
         let mut verdict = Verdict::default();
-        let stored = self.boards.get(board.key).unwrap_or(&Value::Null);
+        let stored = self.machines.get(machine).unwrap_or(&Value::Null);
+        if stored.is_null() {
+            verdict.notes.push(format!("{machine}: no limits are stored"));
+            return verdict;
+        }
         let same_compiler = stored["compiler"] == compiler;
         if !same_compiler {
             verdict.notes.push(format!(
-                "{}: limits are of rustc {}, this is rustc {compiler}: nothing fails for its cost",
-                board.key, stored["compiler"]
+                "{machine}: limits are of rustc {}, this is rustc {compiler}: nothing fails for its cost",
+                stored["compiler"]
             ));
         }
+        let others = |outcome: &&Outcome| {
+            let limit = &stored["counts"][&outcome.name]["pixels"];
+            !limit.is_null() && *limit != outcome.units
+        };
+        if let Some(other) = outcomes.iter().find(others) {
+            let name = &other.name;
+            verdict.notes.push(format!(
+                "{machine} {name}: other geometry than the limits': nothing is compared"
+            ));
+            return verdict;
+        }
         for outcome in outcomes {
-            let name = format!("{} {}", board.key, outcome.name);
+            let name = format!("{machine} {}", outcome.name);
             let limit = &stored["counts"][&outcome.name];
             let Some(instructions) = limit["instructions"].as_f64() else {
                 verdict.notes.push(format!("{name}: no limit is stored"));
                 continue;
             };
-            if limit["pixels"] != outcome.units {
-                verdict
-                    .notes
-                    .push(format!("{name}: other geometry than the limit's: not compared"));
-                continue;
-            }
             let ratio = f64::from(outcome.instructions) / instructions;
             let change = format!(
                 "{name}: {} instructions, limit {instructions} ({:+.1} %)",
@@ -99,7 +107,6 @@ impl Limits {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::board::M4;
 
     fn outcome(instructions: u32, units: u32) -> [Outcome; 1] {
         [Outcome {
@@ -112,22 +119,23 @@ mod tests {
     }
 
     fn limits() -> Limits {
-        let mut limits = Limits { boards: Map::new() };
-        limits.update(&M4, "1.0", &outcome(10_000, 50));
+        let mut limits = Limits { machines: Map::new() };
+        limits.update("m4", "1.0", &outcome(10_000, 50));
         limits
     }
 
     #[test]
     fn a_hundredth_more_passes_and_more_fails() {
-        let over = |count| limits().compare(&M4, "1.0", &outcome(count, 50)).over.len();
+        let over = |count| limits().compare("m4", "1.0", &outcome(count, 50)).over.len();
         assert_eq!([over(9_000), over(10_100), over(10_101)], [0, 0, 1]);
     }
 
     #[test]
-    fn another_compiler_or_geometry_is_noted() {
+    fn another_compiler_geometry_or_machine_is_noted() {
         for verdict in [
-            limits().compare(&M4, "1.1", &outcome(20_000, 50)),
-            limits().compare(&M4, "1.0", &outcome(20_000, 51)),
+            limits().compare("m4", "1.1", &outcome(20_000, 50)),
+            limits().compare("m4", "1.0", &outcome(20_000, 51)),
+            limits().compare("m0", "1.0", &outcome(20_000, 50)),
         ] {
             assert!(verdict.over.is_empty() && !verdict.notes.is_empty());
         }

@@ -51,11 +51,6 @@ impl Outcome {
         output.lines().map(parse).collect()
     }
 
-    /// Instructions per pixel.
-    pub fn per_unit(&self) -> f64 {
-        f64::from(self.instructions) / f64::from(self.units.max(1))
-    }
-
     /// The same picture of the same triangles: all but the cost.
     pub fn same_bits(&self, other: &Self) -> bool {
         let bits = |o: &Self| (o.units, o.color, o.depth);
@@ -83,7 +78,6 @@ mod tests {
         };
         let read = Outcome::parse(&line.to_string());
         assert_eq!(read, Some(Outcome::from(&line)));
-        assert_eq!(read.map(|o| o.per_unit()), Some(25.0));
     }
 
     #[test]

@@ -56,7 +56,7 @@ impl Toolchain {
             cargo.env_remove(variable);
         }
         if self.build_std {
-            cargo.arg("-Zbuild-std=core").env("RUSTC_BOOTSTRAP", "1");
+            cargo.arg("-Zbuild-std=core,alloc").env("RUSTC_BOOTSTRAP", "1");
         }
         if let Some(linker) = &self.linker {
             let name = self.target.to_uppercase().replace('-', "_");

@@ -1,0 +1,37 @@
+//! The icosahedron in lines, in 4 KiB of RAM. Reports every frame.
+
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
+use cortex_m_semihosting::hprintln;
+use fixel_demos::crc::Crc;
+use fixel_demos::oled::{Oled, PAGE};
+use fixel_demos::wireframe::{self, FRAMES, Memory};
+use panic_semihosting as _;
+
+/// Takes the pages' checksum in place of showing them.
+#[derive(Default)]
+struct Checked(Crc);
+
+impl Oled for Checked {
+    fn page(&mut self, _number: u8, columns: &[u8; 128]) {
+        self.0.add(columns);
+    }
+}
+
+#[entry]
+fn main() -> ! {
+    static mut MEMORY: Memory = [0; PAGE];
+
+    let mut drawn = true;
+    for number in 0..FRAMES {
+        let mut oled = Checked::default();
+        drawn &= wireframe::frame(MEMORY, &mut oled, number) == Ok(());
+        hprintln!("wireframe {} 1 {:08x}", number, oled.0.value());
+    }
+    loop {
+        debug::exit(if drawn { EXIT_SUCCESS } else { EXIT_FAILURE });
+    }
+}

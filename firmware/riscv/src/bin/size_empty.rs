@@ -1,0 +1,6 @@
+//! Draws nothing: what the other images of sizes have in common. For its size: nothing is printed.
+
+#![no_std]
+#![no_main]
+
+fixel_riscv::bare_image!(fixel_workloads::sizes::empty);

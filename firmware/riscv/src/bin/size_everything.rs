@@ -1,0 +1,6 @@
+//! Every kind of drawing. For its size: nothing is printed.
+
+#![no_std]
+#![no_main]
+
+fixel_riscv::bare_image!(fixel_workloads::sizes::everything);

@@ -1,0 +1,143 @@
+//! A drawing of each set of features, for its size: with transform and clipping, and nothing that it does not need.
+//!
+//! Every image hands its function what the others have too: memory, a matrix, vertices; the empty one does nothing with them.
+
+use fixel::clip::{Behind, DepthRange, Planes};
+use fixel::depth::{Less, NoDepth};
+use fixel::draw;
+use fixel::error::Error;
+use fixel::fragment::{Flat, Fragment, Gouraud565};
+use fixel::matrix::Matrix;
+use fixel::num::Block;
+use fixel::texture::{Floor, Nearest, Rgb565, Texture};
+use fixel::varying::Perspective;
+use fixel::view::{Cull, Vertex, View};
+use fixel::viewport::Viewport;
+
+use crate::scenes::ALL_KINDS;
+use crate::scenes::part::{HEIGHT, Part, WIDTH};
+
+/// A position and a colour, or texture coordinates in texels.
+pub type Point = ([i32; 4], [u8; 3]);
+
+/// What a firmware would compute or have in flash.
+pub struct Input<'a> {
+    /// To clip space.
+    pub matrix: [i32; 16],
+    /// Every three are a triangle.
+    pub points: &'a [Point],
+    /// 16×16 of them.
+    pub texels: &'a [u16],
+}
+
+/// Draws the input in one way.
+pub type Draw = fn(&mut Part<'_>, &Input<'_>) -> Result<(), Error>;
+
+/// What all images have: no drawing.
+pub fn empty(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    core::hint::black_box((part, input));
+    Ok(())
+}
+
+fn view(input: &Input<'_>, depth_range: DepthRange) -> Result<View<i32, i32, 0>, Error> {
+    Ok(View {
+        projection: Matrix::from_rows(Block::from_integers(input.matrix)),
+        planes: Planes::default(),
+        viewport: Viewport::new(0, 0, WIDTH, HEIGHT)?.y_up(),
+        depth_range,
+        behind: Behind::Cut,
+        cull: Cull::Clockwise,
+    })
+}
+
+fn vertex<A>((position, values): Point, carried: impl FnOnce([u8; 3]) -> A) -> Vertex<i32, A> {
+    Vertex {
+        position: Block::from_integers(position),
+        carried: carried(values),
+    }
+}
+
+/// One colour a triangle, no depth.
+pub fn flat(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    let (view, mut color) = (view(input, DepthRange::Unlimited)?, part.color()?);
+    for points in input.points.as_chunks::<3>().0 {
+        let [(_, [red, green, _]), ..] = *points;
+        let fragment = Flat(u16::from_le_bytes([red, green]));
+        let vertices = points.map(|point| vertex(point, |_| ()));
+        draw::primitive(&view, &mut color, &mut NoDepth, &vertices, &fragment);
+    }
+    Ok(())
+}
+
+/// Colours between the corners, with depth.
+pub fn gouraud(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    let view = view(input, DepthRange::MinusOneToOne)?;
+    let (mut color, mut depth) = part.compared::<Less>()?;
+    for points in input.points.as_chunks::<3>().0 {
+        let vertices = points.map(|point| vertex(point, |[r, g, b]| Gouraud565::corner(r, g, b).0));
+        draw::primitive(&view, &mut color, &mut depth, &vertices, &Gouraud565);
+    }
+    Ok(())
+}
+
+struct Textured<'a>(Nearest<'a, Rgb565, Floor>);
+
+impl Fragment for Textured<'_> {
+    type Varying = Perspective<2>;
+    type Pixel = u16;
+    fn shade(&self, st: [i32; 2], _below: u16) -> Option<u16> {
+        Some(self.0.stored(st))
+    }
+}
+
+/// Texture in perspective, with depth.
+pub fn textured(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    let view = view(input, DepthRange::MinusOneToOne)?;
+    let fragment = Textured(Nearest::new(Texture::new(Rgb565, input.texels, 16, 16)?, 16));
+    let (mut color, mut depth) = part.compared::<Less>()?;
+    for points in input.points.as_chunks::<3>().0 {
+        let vertices = points.map(|point| vertex(point, |[s, t, _]| [s, t].map(|v| i32::from(v) << 16)));
+        draw::primitive(&view, &mut color, &mut depth, &vertices, &fragment);
+    }
+    Ok(())
+}
+
+/// Once each: the above, user planes, lights per pixel, blending, lines, squares, discs, a mesh, a patch, programs, sRGB.
+pub fn everything(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    flat(part, input)?;
+    gouraud(part, input)?;
+    textured(part, input)?;
+    for draw in ALL_KINDS {
+        draw(part)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use super::*;
+    use crate::scenes::part::Memory;
+
+    #[test]
+    fn every_set_draws() {
+        let input = Input {
+            matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+            points: &[
+                ([-1, -1, 0, 1], [255, 7, 0]),
+                ([1, -1, 0, 1], [9, 90, 200]),
+                ([0, 1, 0, 1], [3, 9, 1]),
+            ],
+            texels: &[0xffff; 256],
+        };
+        let mut memory = std::boxed::Box::new(<Memory>::new());
+        let pixels = [empty, flat, gouraud, textured, everything].map(|draw: Draw| {
+            let mut part = memory.cleared(0, HEIGHT);
+            assert_eq!(draw(&mut part, &input), Ok(()));
+            part.colors().iter().filter(|&&pixel| pixel != 0).count()
+        });
+        assert_eq!(pixels[0], 0);
+        assert!(pixels[1..].iter().all(|&count| count > 1000), "{pixels:?}");
+    }
+}
