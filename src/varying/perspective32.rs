@@ -1,0 +1,115 @@
+//! Values in perspective, divided at every pixel, in words of 32 bits.
+
+use core::num::NonZeroU32;
+
+use super::{Perspective, Varying, each, planes};
+use crate::gradient::{Basis, Place, Plane, Ramp};
+use crate::slope::{Slope, Slopes, Weights};
+
+/// As [`Perspective`], in words of 32 bits: one 32-bit division for the reciprocal of 1/w at every pixel, and a product for
+/// each value. For textures of up to some 512 texels a side, and cores that divide.
+///
+/// Values are not kept in the corners' range, which textures that repeat do not need; next to a pole of 1/w inside the polygon
+/// they are anything.
+///
+/// **Error**, with ρ the largest 1/w of the polygon over that of the pixel: 2^-15·(1.5·ρ + 1) of the largest value, and ρ·2100
+/// units where the whole reach of [slopes](mod@crate::slope) is used, ρ·4 for each row and column of smaller triangles
+/// (`tests/narrow.rs`). So with values in 2^-16 texel, triangles of up to 100 rows and columns, textures of 64 texels and
+/// ρ = 3 it is below 1/32 texel.
+///
+/// ```
+/// use fixel::varying::{Perspective, Perspective32};
+/// // u = 100 texels at w = 1, in units of 2^-16.
+/// let near = Perspective32(Perspective::new([100 << 16], 1 << 30));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Perspective32<const N: usize>(pub Perspective<N>);
+
+/// The slopes of a [`Perspective32`].
+#[derive(Debug, Clone, Copy)]
+pub struct Perspective32Slopes<const N: usize> {
+    over_w: [Slope; N],
+    inverse: Slope,
+}
+
+/// The ramps of a [`Perspective32`].
+#[derive(Debug, Clone, Copy)]
+pub struct Perspective32Ramps<const N: usize> {
+    over_w: [Ramp<i32>; N],
+    inverse: Ramp<i32>,
+}
+
+impl<const N: usize> Perspective32Ramps<N> {
+    #[inline(always)]
+    fn values(&self) -> [i32; N] {
+        // 1/w in 2^-16, at most 1 and not 0; its reciprocal in 2^-16, 1 or more. The product is in 2^-16 of the units of
+        // value/w, which are the values'.
+        let inverse = NonZeroU32::MIN | (self.inverse.value >> 14) as u32;
+        let reciprocal = u32::MAX / inverse;
+        each(&self.over_w, |ramp| {
+            ((ramp.value as i64 * reciprocal as i64) >> 16) as i32
+        })
+    }
+}
+
+impl<const N: usize> Slopes<Perspective32<N>> for Perspective32Slopes<N> {
+    #[inline(always)]
+    fn new(weights: &Weights, corners: [Perspective32<N>; 3]) -> Option<Self> {
+        let [a, b, c] = corners.map(|corner| corner.0);
+        let mut over_w = [Slope::default(); N];
+        for (slope, ((&a, &b), &c)) in over_w.iter_mut().zip(a.over_w.iter().zip(&b.over_w).zip(&c.over_w)) {
+            *slope = weights.slope([a, b, c]);
+        }
+        Some(Perspective32Slopes {
+            over_w,
+            inverse: weights.slope([a.inverse, b.inverse, c.inverse]),
+        })
+    }
+    #[inline(always)]
+    fn ramps(&self, place: (i32, i32)) -> Perspective32Ramps<N> {
+        Perspective32Ramps {
+            over_w: each(&self.over_w, |slope| slope.ramp(place)),
+            inverse: self.inverse.ramp(place),
+        }
+    }
+    #[inline(always)]
+    fn values(&self, ramps: &Perspective32Ramps<N>) -> [i32; N] {
+        ramps.values()
+    }
+}
+
+impl<const N: usize> Varying for Perspective32<N> {
+    type Planes = ([Plane; N], [Plane; 1]);
+    type Slopes = Perspective32Slopes<N>;
+    type Ramps = Perspective32Ramps<N>;
+    type Values = [i32; N];
+
+    #[inline]
+    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> Self::Planes {
+        let over_w = planes(basis, count, |i| corner(i).0.over_w);
+        (over_w, planes(basis, count, |i| [corner(i).0.inverse]))
+    }
+    #[inline]
+    fn ramps((over_w, [inverse]): &Self::Planes, place: &Place) -> Perspective32Ramps<N> {
+        Perspective32Ramps {
+            over_w: each(over_w, |plane| plane.ramp(place)),
+            inverse: inverse.ramp(place),
+        }
+    }
+    #[inline(always)]
+    fn values(_: &Self::Planes, ramps: &Perspective32Ramps<N>) -> [i32; N] {
+        ramps.values()
+    }
+    #[inline(always)]
+    fn advance(ramps: &mut Perspective32Ramps<N>) {
+        ramps.over_w.iter_mut().for_each(Ramp::<i32>::advance);
+        ramps.inverse.advance();
+    }
+    #[inline(always)]
+    fn after(ramps: &Perspective32Ramps<N>, count: i32) -> Perspective32Ramps<N> {
+        Perspective32Ramps {
+            over_w: each(&ramps.over_w, |ramp| ramp.after(count)),
+            inverse: ramps.inverse.after(count),
+        }
+    }
+}
