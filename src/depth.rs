@@ -1,7 +1,9 @@
 //! The 16-bit depth buffer, or none.
 
+use core::hint::black_box;
 use core::iter::RepeatN;
 use core::marker::PhantomData;
+use core::mem;
 
 use crate::span::Span;
 use crate::target::Target;
@@ -110,6 +112,26 @@ pub trait Depth {
     /// Compares `depth`, 0…65535, and stores it; whether the fragment is drawn.
     fn test(cell: Self::Cell<'_>, depth: u32) -> bool;
 
+    /// Takes the cells of `pixels` off `cells`, and calls `draw` with every pixel and whether its fragment passes, from depth
+    /// `fine` on in units of 2^-15 step, `step` from pixel to pixel; the depth after them.
+    #[inline(always)]
+    fn pass<'a, P>(
+        cells: &mut Self::Cells<'a>,
+        pixels: &mut [P],
+        mut fine: u32,
+        step: u32,
+        mut draw: impl FnMut(&mut P, bool),
+    ) -> u32
+    where
+        Self: 'a,
+    {
+        for (pixel, cell) in pixels.iter_mut().zip(cells) {
+            draw(pixel, Self::test(cell, fine >> 15));
+            fine = fine.wrapping_add(step);
+        }
+        fine
+    }
+
     /// Whether a fragment beyond the far end of the range, where nothing is cut off there, can pass at all. It then comes
     /// with depth 65535.
     fn takes_beyond(&self) -> bool {
@@ -194,6 +216,30 @@ impl<D: Target<Pixel = u16>, C: Comparison> Depth for DepthBuffer<D, C> {
             *cell = depth as u16;
         }
         passes
+    }
+    #[inline(always)]
+    fn pass<'a, P>(
+        cells: &mut Self::Cells<'a>,
+        pixels: &mut [P],
+        mut fine: u32,
+        step: u32,
+        mut draw: impl FnMut(&mut P, bool),
+    ) -> u32
+    where
+        Self: 'a,
+    {
+        // Cut off as a slice, so that the loop has one end to look at.
+        let all = mem::take(cells).into_slice();
+        if let Some((first, rest)) = all.split_at_mut_checked(pixels.len()) {
+            *cells = rest.iter_mut();
+            for (pixel, cell) in pixels.iter_mut().zip(first) {
+                // Not unrolled: few pixels at a time, and the state of several would not fit the registers.
+                black_box(());
+                draw(pixel, Self::test(cell, fine >> 15));
+                fine = fine.wrapping_add(step);
+            }
+        }
+        fine
     }
     #[inline(always)]
     fn takes_beyond(&self) -> bool {

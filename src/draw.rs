@@ -1,7 +1,9 @@
 //! The walk: from corners on the screen to pixels in the target.
 
 use core::borrow::Borrow;
+use core::hint::black_box;
 
+use crate::barycentric::Barycentric;
 use crate::depth::Depth;
 use crate::fragment::Fragment;
 use crate::gradient::{Basis, Plane, Ramp};
@@ -9,7 +11,8 @@ use crate::line::Line;
 use crate::num::Word;
 use crate::screen::{Corner, Shape};
 use crate::slope::{Slope, Slopes, Weights};
-use crate::span::{Corners, Scan, Spans, doubled_area};
+use crate::small;
+use crate::span::{Scan, Span, Spans, doubled_area};
 use crate::target::Target;
 use crate::varying::Varying;
 use crate::view::{Carried, Vertex, View};
@@ -105,38 +108,77 @@ where
     S: Shape<Varying = F::Varying>,
     F: Fragment<Pixel = C::Pixel>,
 {
-    let spans = Scan::<W, _>::new(shape, area > 0);
-    if shape.count() == 3
-        && let Some(weights) = weights::<D, F::Varying>(shape)
-        && let Some(slopes) = <F::Varying as Varying>::Slopes::new(&weights, [0, 1, 2].map(|i| shape.varying(i)))
+    if <F::Varying as Varying>::Slopes::EXIST
+        && shape.count() == 3
+        && small::is_small([0, 1, 2].map(|i| shape.position(i)))
+        && small::paint(color, depth, shape, fragment)
     {
-        let depth_slope = if D::ENABLED {
-            weights.slope([0, 1, 2].map(|i| shape.depth(i)))
-        } else {
-            Slope::default()
-        };
-        let inside = Inside {
-            weights,
-            depth: depth_slope,
-            slopes,
-        };
-        inside.paint(color, depth, &spans, fragment);
+        return;
+    }
+    let spans = Scan::<W, _>::new(shape, area > 0);
+    if <F::Varying as Varying>::Slopes::EXIST && shape.count() == 3 {
+        triangle_spans(color, depth, shape, area, &spans, fragment);
     } else {
         paint(color, depth, shape, &spans, fragment);
     }
 }
 
-/// Of a triangle; any, where nothing is interpolated.
+/// Draws what `spans` cover of a triangle whose varying has slopes: one set of them for all of it, or where it is too large or
+/// too thin one for each piece of a span.
 #[inline(always)]
-fn weights<D: Depth, V: Varying>(corners: &impl Corners) -> Option<Weights> {
-    if D::ENABLED || V::Slopes::CARRIES {
-        Weights::new([0, 1, 2].map(|i| corners.position(i)))
+fn triangle_spans<C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, area: i64, spans: &impl Spans, fragment: &F)
+where
+    C: Target,
+    D: Depth,
+    S: Shape<Varying = F::Varying>,
+    F: Fragment<Pixel = C::Pixel>,
+{
+    if area == 0 {
+        return;
+    }
+    let positions = [0, 1, 2].map(|i| shape.position(i));
+    let carries = D::ENABLED || <F::Varying as Varying>::Slopes::CARRIES;
+    let weights = if carries {
+        Weights::new(positions)
     } else {
         Some(Weights::default())
+    };
+    let pieces = if weights.is_none() {
+        Some(Barycentric::new(positions))
+    } else {
+        None
+    };
+    let Some(inside) = Inside::new::<D, _>(&weights.unwrap_or_default(), shape) else {
+        return;
+    };
+    spans.each(depth.limit(color.window()), |span| match &pieces {
+        None => inside.span(color, depth, &span, fragment),
+        Some(pieces) => draw_pieces(color, depth, shape, pieces, span, fragment),
+    });
+}
+
+/// A span piece by piece.
+#[cold]
+#[inline(never)]
+fn draw_pieces<C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, pieces: &Barycentric, span: Span, fragment: &F)
+where
+    C: Target,
+    D: Depth,
+    S: Shape<Varying = F::Varying>,
+    F: Fragment<Pixel = C::Pixel>,
+{
+    let mut left = span.left;
+    while left < span.right {
+        let (weights, piece) = pieces.piece(&span, left);
+        let Some(inside) = Inside::new::<D, _>(&weights, shape) else {
+            return;
+        };
+        inside.span(color, depth, &piece, fragment);
+        left = piece.right;
     }
 }
 
-/// All that is interpolated over a triangle that has [`Weights`].
+/// All that is interpolated over a triangle, or a piece of its spans.
 struct Inside<V: Varying> {
     weights: Weights,
     depth: Slope,
@@ -144,30 +186,131 @@ struct Inside<V: Varying> {
 }
 
 impl<V: Varying> Inside<V> {
+    #[inline(never)]
+    fn new<D: Depth, S: Shape<Varying = V>>(weights: &Weights, shape: &S) -> Option<Self> {
+        Some(Inside {
+            weights: *weights,
+            depth: if D::ENABLED {
+                weights.slope([0, 1, 2].map(|i| shape.depth(i)))
+            } else {
+                Slope::default()
+            },
+            slopes: V::Slopes::new(weights, [0, 1, 2].map(|i| shape.varying(i)))?,
+        })
+    }
+
+    /// One span: what is hidden at its start costs the comparison and one addition for each pixel, and nothing else is looked
+    /// at before the first visible one.
     #[inline(always)]
-    fn paint<C, D, F>(&self, color: &mut C, depth: &mut D, spans: &impl Spans, fragment: &F)
+    fn span<C, D, F>(&self, color: &mut C, depth: &mut D, span: &Span, fragment: &F)
     where
         C: Target,
         D: Depth,
         F: Fragment<Pixel = C::Pixel, Varying = V>,
     {
-        spans.each(depth.limit(color.window()), |span| {
-            let pixels = color.span(span.row, span.left, span.right);
-            if pixels.is_empty() || !D::ENABLED && fragment.fill(pixels) {
+        let Span { row, left, right, .. } = *span;
+        if V::Slopes::DRAWS {
+            let pixels = color.span(row, left, right);
+            if !pixels.is_empty() && (D::ENABLED || !fragment.fill(pixels)) {
+                let mut ramp = self.depth.ramp(self.weights.place(left, row));
+                ramp.value = ramp.value.wrapping_add(1 << 14);
+                let cells = depth.cells(span);
+                self.slopes
+                    .draw::<D, F>(&self.weights, span, pixels, cells, ramp, fragment);
+            }
+            return;
+        }
+        if !D::ENABLED {
+            let pixels = color.span(row, left, right);
+            if !pixels.is_empty() && !fragment.fill(pixels) {
+                self.shade(pixels, left, row, fragment);
+            }
+            return;
+        }
+        let step = self.depth.x as u32;
+        let mut column = left;
+        while column < right {
+            let ramp = self.depth.ramp(self.weights.place(column, row));
+            // With the half that rounds to the nearest step. All values lie in 0…65535 steps, so that the sum fits 32 bits.
+            let mut fine = (ramp.value as u32).wrapping_add(1 << 14);
+            let mut cells = depth.cells(&Span { left: column, ..*span });
+            loop {
+                // Rolled: four at a time would not fit the registers. Seven instructions on Cortex-M4, six by hand, which would
+                // not keep the cell's address.
+                black_box(());
+                let Some(cell) = cells.next() else { return };
+                if D::test(cell, fine >> 15) {
+                    break;
+                }
+                fine = fine.wrapping_add(step);
+            }
+            let others = cells.size_hint().0 as i32;
+            column = right.wrapping_sub(others).wrapping_sub(1);
+            let pixels = color.span(row, column, right);
+            if pixels.is_empty() {
                 return;
             }
-            let place = self.weights.place(span.left, span.row);
-            let ramps = self.slopes.ramps(place);
-            let values = |ramps: &V::Ramps| self.slopes.values(ramps);
-            shade::<D, F>(
-                pixels,
-                depth.cells(&span),
-                self.depth.ramp(place),
-                ramps,
-                values,
-                fragment,
-            );
-        });
+            let shaded = self.shade_visible::<D, F>(pixels, cells, fine, (column, row), fragment);
+            column = column.wrapping_add(shaded).wrapping_add(1);
+        }
+    }
+
+    /// All of `pixels`.
+    #[inline(never)]
+    fn shade<F>(&self, pixels: &mut [F::Pixel], left: i32, row: i32, fragment: &F)
+    where
+        F: Fragment<Varying = V>,
+    {
+        let mut ramps = self.slopes.ramps(self.weights.place(left, row));
+        for pixel in pixels {
+            self.shade_one(pixel, &ramps, fragment);
+            V::advance(&mut ramps);
+        }
+    }
+
+    /// The first of `pixels`, which is visible at depth `fine`, and those after it as long as they are; `cells` are theirs. How
+    /// many were shaded.
+    ///
+    /// A function of its own: inlined, the rows' state takes its registers. On Cortex-M4 an RGB565 pixel of interpolated colour
+    /// costs 16 instructions here, of which one makes a mask again that has no register; 15 by hand.
+    #[inline(never)]
+    fn shade_visible<D, F>(
+        &self,
+        pixels: &mut [F::Pixel],
+        cells: D::Cells<'_>,
+        mut fine: u32,
+        (left, row): (i32, i32),
+        fragment: &F,
+    ) -> i32
+    where
+        D: Depth,
+        F: Fragment<Varying = V>,
+    {
+        let Some((pixel, others)) = pixels.split_first_mut() else {
+            return 0;
+        };
+        let mut ramps = self.slopes.ramps(self.weights.place(left, row));
+        let step = self.depth.x as u32;
+        self.shade_one(pixel, &ramps, fragment);
+        let mut shaded = 1;
+        for (pixel, cell) in others.iter_mut().zip(cells) {
+            black_box(());
+            fine = fine.wrapping_add(step);
+            if !D::test(cell, fine >> 15) {
+                break;
+            }
+            V::advance(&mut ramps);
+            self.shade_one(pixel, &ramps, fragment);
+            shaded += 1;
+        }
+        shaded
+    }
+
+    #[inline(always)]
+    fn shade_one<F: Fragment<Varying = V>>(&self, pixel: &mut F::Pixel, ramps: &V::Ramps, fragment: &F) {
+        if let Some(new) = fragment.shade(self.slopes.values(ramps), *pixel) {
+            *pixel = new;
+        }
     }
 }
 

@@ -37,7 +37,8 @@ pub fn first_row(y: i32) -> i32 {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Edge<W> {
     column: W,
-    remainder: W,
+    /// −1 − r: a row further it passes 0 where the column has to go one on, which is the carry of the addition.
+    complement: W,
     step: W,
     remainder_step: W,
     denominator: W,
@@ -71,19 +72,37 @@ impl<W: Word> Edge<W> {
         let whole = start >> SUBPIXEL_BITS;
         // In 0…2d−1 right of `whole`: its ceil is 0, 1 or 2 columns on.
         let fraction = start - (whole << SUBPIXEL_BITS);
+        let (mut column, mut remainder) = (whole, -(fraction * dy + rest * prestep));
+        for _ in 0..2 {
+            // By masks: fewer instructions than by conditions.
+            let below = remainder.sign();
+            column = column - below;
+            remainder = remainder + (denominator & below);
+        }
         let mut edge = Edge {
-            column: whole,
-            remainder: -(fraction * dy + rest * prestep),
+            column,
+            complement: -W::ONE - remainder,
             step,
             remainder_step: rest << SUBPIXEL_BITS,
             denominator,
         };
-        edge.carry();
-        edge.carry();
         if row > first {
             edge.skip(W::from_i32(row - first));
         }
         edge
+    }
+
+    /// Any edge, to be replaced: words that are all the same, which costs a store each and no call.
+    #[inline(always)]
+    pub(crate) fn placeholder(word: i32) -> Self {
+        let word = W::from_i32(word);
+        Edge {
+            column: word,
+            complement: word,
+            step: word,
+            remainder_step: word,
+            denominator: word,
+        }
     }
 
     /// First column at or right of the edge in this row.
@@ -95,14 +114,14 @@ impl<W: Word> Edge<W> {
     /// The column that the edge is in or at the left side of in this row: floor.
     #[inline(always)]
     pub(crate) fn column_before(&self) -> i32 {
-        self.column.low_i32() - (self.remainder > W::ZERO) as i32
+        self.column.low_i32() - (self.complement < -W::ONE) as i32
     }
 
     /// How far right of [`column_before`](Self::column_before), in 1/(256·dy) px: exact, 0 up to and without a pixel.
     #[inline(always)]
     pub(crate) fn remainder(&self) -> W {
-        if self.remainder > W::ZERO {
-            self.denominator - self.remainder
+        if self.complement < -W::ONE {
+            self.denominator + self.complement + W::ONE
         } else {
             W::ZERO
         }
@@ -111,27 +130,24 @@ impl<W: Word> Edge<W> {
     /// One row down.
     #[inline(always)]
     pub fn descend(&mut self) {
-        self.column = self.column + self.step;
-        self.remainder = self.remainder - self.remainder_step;
-        self.carry();
-    }
-
-    #[inline(always)]
-    fn carry(&mut self) {
-        // By masks: fewer instructions than by conditions.
-        let below = self.remainder.sign();
-        self.column = self.column - below;
-        self.remainder = self.remainder + (self.denominator & below);
+        let (complement, carry) = self.complement.carrying_add(self.remainder_step);
+        self.column = self.column + self.step + W::from_i32(carry as i32);
+        // The carry's condition: asked of the sum, so that the addend needs no register.
+        self.complement = if complement >= W::ZERO {
+            complement - self.denominator
+        } else {
+            complement
+        };
     }
 
     /// `rows` rows down at once: the rows above the window cost one division, not their number.
     #[cold]
     fn skip(&mut self, rows: W) {
         // How far n has grown past q·d, in 1 − d…: rounded up, for which one less than d is added.
-        let grown = rows.times(self.remainder_step) - self.remainder.widen();
+        let grown = rows.times(self.remainder_step) + (self.complement + W::ONE).widen();
         let most = self.denominator.widen() - W::ONE.widen();
         let carries = (grown + most).div_floor(self.denominator.widen()).narrow();
         self.column = self.column + rows * self.step + carries;
-        self.remainder = (carries.times(self.denominator) - grown).narrow();
+        self.complement = (grown - carries.times(self.denominator)).narrow() - W::ONE;
     }
 }

@@ -15,9 +15,12 @@
 
 use core::convert::Infallible;
 
+use crate::depth::Depth;
 use crate::edge::{SUBPIXEL_BITS, SUBPIXELS};
+use crate::fragment::Fragment;
 use crate::gradient::Ramp;
-use crate::num::near_reciprocal;
+use crate::num::{high_sum, near_reciprocal};
+use crate::span::Span;
 use crate::varying::Varying;
 
 /// Rows and columns of the largest box, times 2^up.
@@ -37,6 +40,8 @@ pub struct Weights {
     /// Per row.
     y: (i32, i32),
     up: u32,
+    /// As `up`, of the anchor.
+    anchor_up: u32,
 }
 
 impl Weights {
@@ -89,7 +94,33 @@ impl Weights {
             x,
             y,
             up,
+            anchor_up: up,
         })
+    }
+
+    /// With the weights at a covered sample, negated, in units of 2^-29, and steps in units of 2^-(32 − up).
+    #[inline(always)]
+    pub(crate) fn at_sample(pixel: (i32, i32), anchor: (i32, i32), x: (i32, i32), y: (i32, i32), up: u32) -> Self {
+        Weights {
+            pixel,
+            anchor,
+            x,
+            y,
+            up,
+            anchor_up: 3,
+        }
+    }
+
+    /// Steps are cut to 2^up units.
+    #[inline(always)]
+    pub(crate) fn up(&self) -> u32 {
+        self.up
+    }
+
+    /// From one covered sample to another.
+    #[inline(always)]
+    pub(crate) fn move_to(&mut self, pixel: (i32, i32), anchor: (i32, i32)) {
+        (self.pixel, self.anchor) = (pixel, anchor);
     }
 
     /// Columns and rows from the anchor to pixel (x, y), modulo 2^32.
@@ -101,21 +132,20 @@ impl Weights {
     /// The slope through `values` at the triangle's corners, each less than 2^31 from the first.
     #[inline(always)]
     pub fn slope(&self, [a, b, c]: [i32; 3]) -> Slope {
-        let (b, c) = (b.wrapping_sub(a) as i64, c.wrapping_sub(a) as i64);
+        let values = (b.wrapping_sub(a), c.wrapping_sub(a));
         // |weights| < 2^31, those at the anchor less by a 256th: below 2^63.
-        let dot = |(p, q): (i32, i32)| ((b * p as i64).wrapping_add(c * q as i64) >> 32) as i32;
-        let dot = |weights| dot(weights).wrapping_shl(self.up);
+        let dot = |weights| high_sum(values, weights);
         Slope {
-            value: a.wrapping_sub(dot(self.anchor)),
-            x: dot(self.x),
-            y: dot(self.y),
+            value: a.wrapping_sub(dot(self.anchor).wrapping_shl(self.anchor_up)),
+            x: dot(self.x).wrapping_shl(self.up),
+            y: dot(self.y).wrapping_shl(self.up),
         }
     }
 }
 
 /// `magnitude` · 2^-shift in 2^31…2^32−1, cut, and the shift; by halves.
 #[inline(always)]
-fn normalized(magnitude: u64) -> (u32, i32) {
+pub(crate) fn normalized(magnitude: u64) -> (u32, i32) {
     let (high, low) = ((magnitude >> 32) as u32, magnitude as u32);
     if high == 0 {
         let up = low.leading_zeros();
@@ -160,6 +190,10 @@ impl Slope {
 pub trait Slopes<V: Varying>: Sized {
     /// Whether there is anything to set up at all.
     const CARRIES: bool = true;
+    /// Whether [`new`](Self::new) gives any: always or never.
+    const EXIST: bool = true;
+    /// Whether spans are drawn by [`draw`](Self::draw), not pixel by pixel from ramps.
+    const DRAWS: bool = false;
 
     /// Set up once per triangle; `None` where a varying has no use for weights.
     fn new(weights: &Weights, corners: [V; 3]) -> Option<Self>;
@@ -167,9 +201,25 @@ pub trait Slopes<V: Varying>: Sized {
     fn ramps(&self, place: (i32, i32)) -> V::Ramps;
     /// At the current pixel.
     fn values(&self, ramps: &V::Ramps) -> V::Values;
+
+    /// Draws a span, where [`DRAWS`](Self::DRAWS) says so: `pixels` and `cells` are those of the span, `depth` its depth in
+    /// units of 2^-15 step with the half that rounds.
+    #[inline(always)]
+    fn draw<D: Depth, F: Fragment<Varying = V>>(
+        &self,
+        _weights: &Weights,
+        _span: &Span,
+        _pixels: &mut [F::Pixel],
+        _cells: D::Cells<'_>,
+        _depth: Ramp<i32>,
+        _fragment: &F,
+    ) {
+    }
 }
 
 impl<V: Varying> Slopes<V> for Infallible {
+    const EXIST: bool = false;
+
     #[inline(always)]
     fn new(_: &Weights, _: [V; 3]) -> Option<Self> {
         None

@@ -4,7 +4,9 @@
 //! the top corner to the bottom one. That is fewer edges to set up, and exact where a fan is not: cut points that fall
 //! within 1/256 px of a corner can turn a fan's sliver around, and a turned sliver is a pixel drawn twice.
 
+use core::hint::black_box;
 use core::marker::PhantomData;
+use core::mem;
 use core::ops::Range;
 
 use crate::edge::{Edge, first_row};
@@ -134,41 +136,117 @@ fn is_triangle<S: Corners>(_: &S) -> bool {
 
 /// Three corners: two edges run down from the top one, and one of them turns once.
 #[inline(always)]
-fn scan_triangle<W: Word>([a, b, c]: [(i32, i32); 3], ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
-    // Counter-clockwise on the screen, with the top one first: the left side is a-b-c, the right side a-c-b.
-    let (b, c) = if ccw { (b, c) } else { (c, b) };
-    let (a, b, c) = if b.1 < a.1 && b.1 <= c.1 {
-        (b, c, a)
-    } else if c.1 < a.1 {
-        (c, a, b)
-    } else {
-        (a, b, c)
-    };
-    if is_beside(window, a.0.min(b.0).min(c.0), a.0.max(b.0).max(c.0)) {
+fn scan_triangle<W: Word>(corners: [(i32, i32); 3], ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
+    let Some(mut rows) = TriangleRows::<W>::new(corners, ccw, window) else {
         return;
+    };
+    let mut columns = [(rows.row, rows.end); BLOCK];
+    while rows.row < rows.end {
+        let first = rows.row;
+        let count = rows.walk(&mut columns);
+        for (row, &(whole_left, whole_right)) in (first..).zip(columns.iter().take(count)) {
+            let span = Span {
+                row,
+                left: whole_left.max(window.left),
+                right: whole_right.min(window.right),
+                whole_left,
+                whole_right,
+            };
+            if span.left < span.right {
+                draw(span);
+            }
+        }
     }
-    let ends = (first_row(b.1), first_row(c.1));
-    let end = ends.0.max(ends.1).min(window.bottom);
-    let mut row = first_row(a.1).max(window.top);
-    // Above its end a side is on its first edge, from there on its second, which ends where the other side turned.
-    let mut left = Side::new(a, b, ends.0);
-    let mut right = Side::new(a, c, ends.1);
-    left.turn(row, c, ends.1);
-    right.turn(row, b, ends.0);
-    let mut edges = (Edge::<W>::default(), Edge::<W>::default());
-    let (mut left_turned, mut right_turned) = (true, true);
-    while row < end {
-        if left_turned {
-            edges.0 = Edge::new(left.from, left.to, row);
+}
+
+/// Rows of a triangle that are walked at a time. The walk has ten words of state and the drawing of a row as many: apart from
+/// each other, both stay in registers.
+const BLOCK: usize = 32;
+
+/// A triangle's rows on a window, walked from the top.
+struct TriangleRows<W> {
+    left: Edge<W>,
+    right: Edge<W>,
+    /// The top corner, the lower one of the left side, that of the right side.
+    corners: [(i32, i32); 3],
+    /// Where the sides' upper edges end.
+    turns: (i32, i32),
+    row: i32,
+    /// Where the present edges end; above the first row before there are any.
+    stop: i32,
+    end: i32,
+}
+
+impl<W: Word> TriangleRows<W> {
+    #[inline(always)]
+    fn new([a, b, c]: [(i32, i32); 3], ccw: bool, window: Window) -> Option<Self> {
+        // Counter-clockwise on the screen, with the top one first: the left side is a-b-c, the right side a-c-b.
+        let (b, c) = if ccw { (b, c) } else { (c, b) };
+        let (a, b, c) = if b.1 < a.1 && b.1 <= c.1 {
+            (b, c, a)
+        } else if c.1 < a.1 {
+            (c, a, b)
+        } else {
+            (a, b, c)
+        };
+        if is_beside(window, a.0.min(b.0).min(c.0), a.0.max(b.0).max(c.0)) {
+            return None;
         }
-        if right_turned {
-            edges.1 = Edge::new(right.from, right.to, row);
+        let turns = (first_row(b.1), first_row(c.1));
+        Some(TriangleRows {
+            left: Edge::placeholder(turns.0),
+            right: Edge::placeholder(turns.1),
+            corners: [a, b, c],
+            turns,
+            row: first_row(a.1).max(window.top),
+            stop: i32::MIN,
+            end: turns.0.max(turns.1).min(window.bottom),
+        })
+    }
+
+    /// First column and the one after the last of the rows from `row` on, and how many these are. The same code for all that
+    /// is drawn.
+    #[inline(never)]
+    fn walk(&mut self, columns: &mut [(i32, i32); BLOCK]) -> usize {
+        let mut free = columns.as_mut_slice();
+        while self.row < self.end && !free.is_empty() {
+            if self.row >= self.stop {
+                self.turn();
+            }
+            let count = (self.stop.wrapping_sub(self.row) as usize).min(free.len());
+            let Some((block, rest)) = mem::take(&mut free).split_at_mut_checked(count) else {
+                break;
+            };
+            let (mut left, mut right) = (self.left, self.right);
+            for columns in block {
+                // Four rows at a time would not fit the registers.
+                black_box(());
+                *columns = (left.column(), right.column());
+                left.descend();
+                right.descend();
+            }
+            (self.left, self.right) = (left, right);
+            self.row += count as i32;
+            free = rest;
         }
-        let stop = end.min(left.end).min(right.end);
-        rows(row..stop, window, &mut edges, &mut draw);
-        row = stop;
-        left_turned = left.turn(row, c, ends.1);
-        right_turned = right.turn(row, b, ends.0);
+        BLOCK - free.len()
+    }
+
+    /// Goes on to the edges that cross `row`: both at first, then the one whose turn it is.
+    #[inline(always)]
+    fn turn(&mut self) {
+        let ([a, b, c], row, (left, right)) = (self.corners, self.row, self.turns);
+        let first = self.stop == i32::MIN;
+        if first || row >= left {
+            let (from, to) = if row < left { (a, b) } else { (b, c) };
+            self.left = Edge::new(from, to, row);
+        }
+        if first || row >= right {
+            let (from, to) = if row < right { (a, c) } else { (c, b) };
+            self.right = Edge::new(from, to, row);
+        }
+        let next = left.min(right);
+        self.stop = if row < next { next.min(self.end) } else { self.end };
     }
 }
 
@@ -176,30 +254,6 @@ fn scan_triangle<W: Word>([a, b, c]: [(i32, i32); 3], ccw: bool, window: Window,
 #[inline(always)]
 fn is_beside(window: Window, leftmost: i32, rightmost: i32) -> bool {
     first_row(leftmost) >= window.right || first_row(rightmost) <= window.left
-}
-
-/// An edge of a triangle's left or right side, and the row where it ends.
-struct Side {
-    from: (i32, i32),
-    to: (i32, i32),
-    end: i32,
-}
-
-impl Side {
-    #[inline(always)]
-    fn new(from: (i32, i32), to: (i32, i32), end: i32) -> Self {
-        Side { from, to, end }
-    }
-
-    /// Goes on to the edge down to `to` where this one has ended at `row`; whether it has.
-    #[inline(always)]
-    fn turn(&mut self, row: i32, to: (i32, i32), end: i32) -> bool {
-        let turns = self.end <= row;
-        if turns {
-            *self = Side::new(self.to, to, end);
-        }
-        turns
-    }
 }
 
 /// The spans between two edges, which are left at the row after the last.

@@ -169,7 +169,20 @@ impl<P: Copy> Target for Buffer<'_, P> {
         // Two bounds instead of the four by way of the row.
         let start = (row.wrapping_sub(self.window.top) as usize).wrapping_mul(self.stride);
         let start = start.wrapping_add(left.wrapping_sub(self.window.left) as u32 as usize);
-        let end = start.wrapping_add(right.wrapping_sub(left) as u32 as usize);
-        self.pixels.get_mut(start..end).unwrap_or_default()
+        let count = right.wrapping_sub(left) as u32 as usize;
+        if start > self.pixels.len() {
+            return nothing();
+        }
+        match self.pixels.get_mut(start..).and_then(|rest| rest.get_mut(..count)) {
+            Some(pixels) => pixels,
+            None => nothing(),
+        }
     }
+}
+
+/// Out of the way: what is there is a comparison and no selection.
+#[cold]
+#[inline(never)]
+fn nothing<'a, P>() -> &'a mut [P] {
+    &mut []
 }

@@ -6,7 +6,7 @@ use crate::mesh::Index;
 use crate::num::Word;
 use crate::span::doubled_area;
 use crate::target::Target;
-use crate::view::{Assembled, Carried, ScreenVertex, View};
+use crate::view::{Carried, ScreenVertex, View, Way};
 
 use super::polygon;
 
@@ -55,13 +55,16 @@ pub fn indexed<T, W, C, D, F, I>(
     I: Index,
 {
     for [a, b, c] in triangles {
-        if let (Some(a), Some(b), Some(c)) = (
-            vertices.get(a.to_usize()),
-            vertices.get(b.to_usize()),
-            vertices.get(c.to_usize()),
-        ) {
-            assembled(view, color, depth, [a, b, c], fragment);
-        }
+        let Some(a) = vertices.get(a.to_usize()) else {
+            continue;
+        };
+        let Some(b) = vertices.get(b.to_usize()) else {
+            continue;
+        };
+        let Some(c) = vertices.get(c.to_usize()) else {
+            continue;
+        };
+        assembled(view, color, depth, [a, b, c], fragment);
     }
 }
 
@@ -81,8 +84,12 @@ pub fn assembled<T, W, C, D, F>(
     D: Depth,
     F: Fragment<Pixel = C::Pixel, Varying: Carried>,
 {
-    view.assemble::<F::Varying>(vertices, |left| match left {
-        Assembled::Triangle(triangle) => polygon::<W, _, _, _, _>(color, depth, triangle, triangle.area(), fragment),
-        Assembled::Polygon(shape) => polygon::<W, _, _, _, _>(color, depth, shape, doubled_area(shape), fragment),
-    });
+    let [a, b, c] = vertices;
+    match view.way::<F::Varying>([a, b, c]) {
+        Way::Nowhere => {}
+        Way::Whole(triangle) => polygon::<W, _, _, _, _>(color, depth, &triangle, triangle.area(), fragment),
+        Way::Across => view.clip_triangle::<F::Varying>([a, b, c], &mut |shape| {
+            polygon::<W, _, _, _, _>(color, depth, shape, doubled_area(shape), fragment);
+        }),
+    }
 }

@@ -65,6 +65,9 @@ pub trait Word:
     fn widen(self) -> Self::Wide;
     /// All bits set for a negative number, none for any other.
     fn sign(self) -> Self;
+    /// Sum modulo 2 to the word's width, and whether it carries: of a negative number and one that is not, whether the sum is 0
+    /// or above.
+    fn carrying_add(self, other: Self) -> (Self, bool);
     /// Exact product.
     fn times(self, other: Self) -> Self::Wide;
     /// Quotient rounded down and remainder in 0…divisor−1, for a positive divisor; 0, 0 for any other.
@@ -142,6 +145,11 @@ macro_rules! word {
             #[inline(always)]
             fn sign(self) -> Self {
                 self >> (<$word>::BITS - 1)
+            }
+            #[inline(always)]
+            fn carrying_add(self, other: Self) -> (Self, bool) {
+                let (sum, carry) = self.cast_unsigned().overflowing_add(other.cast_unsigned());
+                (sum.cast_signed(), carry)
             }
             #[inline(always)]
             fn times(self, other: Self) -> $wide {

@@ -10,9 +10,9 @@ use crate::slope::{Slope, Slopes, Weights};
 ///
 /// Two words are stepped for the three channels, which do not touch each other as long as the colours are in range.
 ///
-/// **Error**: at most half a level before rounding, so that a stored channel is within one level of the exact value, on
-/// spans of up to 1024 px; on longer ones of polygons beyond the reach of [slopes](mod@crate::slope) 2^-11 level more for
-/// every further pixel (`tests/color565.rs`).
+/// **Error**: at most half a level before rounding, so that a stored channel is within one level of the exact value, over
+/// triangles of any size; over polygons of more corners on spans of up to 1024 px, and 2^-11 level more for every further
+/// pixel (`tests/narrow.rs`).
 ///
 /// ```
 /// use fixel::{fragment::Gouraud565, varying::Color565};
@@ -53,6 +53,12 @@ impl Packed565 {
     #[inline(always)]
     pub fn pixel(self) -> u16 {
         (self.pair & 0xf800 | self.pair >> 27 | self.green >> 16 << 5) as u16
+    }
+
+    /// Red, green and blue in the units of a [`Color565`], before they are cut off; red and blue are whole 2^-11 levels.
+    #[inline]
+    pub fn levels(self) -> [i32; 3] {
+        [self.pair << 16 >> 11, self.green, self.pair >> 16 << 5].map(|v| v as i32)
     }
 }
 

@@ -1,0 +1,120 @@
+//! Upper words of products.
+//!
+//! Cores of ARMv6-M have no product of more than 32 bits: the library's is a call of 52 instructions for 64 bits, of which
+//! 32 are thrown away. From four products of halves it is 20, with the same bits.
+
+/// Whether products of 64 bits are calls: ARMv6-M, which is the one of its family without compare-and-swap.
+const BY_HALVES: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
+
+/// Whether one instruction adds such a product to 64 bits, or the machine's words have them.
+pub(crate) const LONG_SUM: bool = !BY_HALVES && cfg!(any(target_arch = "arm", target_pointer_width = "64"));
+
+/// a·b.
+#[inline(always)]
+pub(crate) fn product(a: i32, b: i32) -> i64 {
+    if BY_HALVES {
+        (high(a, b) as i64) << 32 | a.wrapping_mul(b) as u32 as i64
+    } else {
+        a as i64 * b as i64
+    }
+}
+
+/// a·b · 2^-32, rounded down.
+#[inline(always)]
+pub(crate) fn high(a: i32, b: i32) -> i32 {
+    if BY_HALVES {
+        high_by_halves(a, b)
+    } else {
+        ((a as i64 * b as i64) >> 32) as i32
+    }
+}
+
+/// a·b · 2^-32, rounded down.
+#[inline(always)]
+pub(crate) fn high_unsigned(a: u32, b: u32) -> u32 {
+    if BY_HALVES {
+        high_unsigned_by_halves(a, b)
+    } else {
+        ((a as u64 * b as u64) >> 32) as u32
+    }
+}
+
+/// (a·p + b·q) · 2^-32, rounded down, for a sum that fits 64 bits.
+#[inline(always)]
+pub(crate) fn high_sum((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
+    if BY_HALVES {
+        high_sum_by_halves((a, b), (p, q))
+    } else {
+        ((a as i64 * p as i64).wrapping_add(b as i64 * q as i64) >> 32) as i32
+    }
+}
+
+#[inline(always)]
+fn high_by_halves(a: i32, b: i32) -> i32 {
+    let ((a1, a0), (b1, b0)) = ((a >> 16, a & 0xffff), (b >> 16, b & 0xffff));
+    let low = (a0 as u32).wrapping_mul(b0 as u32) >> 16;
+    // 2^15·(2^16 − 1) + 2^16 − 1 at most, either way: within 31 bits and the sign.
+    let first = a1 * b0 + low as i32;
+    let second = a0 * b1 + (first & 0xffff);
+    (a1 * b1).wrapping_add(first >> 16).wrapping_add(second >> 16)
+}
+
+#[inline(always)]
+fn high_unsigned_by_halves(a: u32, b: u32) -> u32 {
+    let ((a1, a0), (b1, b0)) = ((a >> 16, a & 0xffff), (b >> 16, b & 0xffff));
+    // (2^16 − 1)^2 + 2^16 − 1 at most: 32 bits.
+    let first = a1 * b0 + ((a0 * b0) >> 16);
+    let second = a0 * b1 + (first & 0xffff);
+    a1 * b1 + (first >> 16) + (second >> 16)
+}
+
+#[inline(always)]
+fn high_sum_by_halves((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
+    let low = a.wrapping_mul(p) as u32;
+    let (_, carry) = low.overflowing_add(b.wrapping_mul(q) as u32);
+    high_by_halves(a, p)
+        .wrapping_add(high_by_halves(b, q))
+        .wrapping_add(carry as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halves_make_the_same_words() {
+        let ends = [
+            0,
+            1,
+            -1,
+            0xffff,
+            0x1_0000,
+            -0x1_0000,
+            0x7fff_ffff,
+            -0x8000_0000,
+            0x7fff_0000,
+            -0x7fff_0001,
+            0x1234_5678,
+            -0x0edc_ba98,
+        ];
+        for a in ends {
+            for p in ends {
+                assert_eq!(high_by_halves(a, p) as i64, (a as i64 * p as i64) >> 32, "{a} {p}");
+                let (ua, up) = (a as u32 as u64, p as u32 as u64);
+                assert_eq!(
+                    high_unsigned_by_halves(a as u32, p as u32) as u64,
+                    (ua * up) >> 32,
+                    "{a} {p}"
+                );
+                for b in ends {
+                    for q in ends {
+                        let sum = a as i128 * p as i128 + b as i128 * q as i128;
+                        if sum as i64 as i128 == sum {
+                            assert_eq!(high_sum_by_halves((a, b), (p, q)) as i128, sum >> 32, "{a} {p} {b} {q}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
