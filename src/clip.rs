@@ -101,6 +101,41 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
         self.built_in.iter_mut().chain(self.user.iter_mut())
     }
 
+    #[inline]
+    fn get_mut(&mut self, index: usize) -> Option<&mut C> {
+        match self.built_in.get_mut(index) {
+            Some(corner) => Some(corner),
+            None => self.user.get_mut(index.wrapping_sub(BUILT_IN)),
+        }
+    }
+
+    /// Puts a corner before corner `index`.
+    #[inline(never)]
+    fn insert(&mut self, index: usize, mut corner: C) {
+        for i in index..self.len() {
+            if let Some(there) = self.get_mut(i) {
+                core::mem::swap(there, &mut corner);
+            }
+        }
+        self.push(corner);
+    }
+
+    /// Takes `count` corners away, from corner `index` on.
+    #[inline(never)]
+    fn remove(&mut self, index: usize, count: usize) {
+        let len = self.len().saturating_sub(count);
+        for i in index..len {
+            let Some(&next) = self.get(i.wrapping_add(count)) else {
+                return;
+            };
+            if let Some(there) = self.get_mut(i) {
+                *there = next;
+            }
+        }
+        self.built_in.truncate(len);
+        self.user.truncate(len.saturating_sub(BUILT_IN));
+    }
+
     /// One corner more; beyond 9 + N it is left out, which [`cut`] never needs.
     #[inline]
     pub(crate) fn push(&mut self, corner: C) {
@@ -113,17 +148,21 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
 impl<T: Word, const N: usize> Polygon<ClipCorner<T>, N> {
     /// A triangle whose corners are its vertices, or a line whose ends are, if K is 2.
     pub(crate) fn of_vertices<const K: usize>(vertices: [Block<T, 4>; K]) -> Self {
+        ClipCorner::of_vertices(vertices).into_iter().collect()
+    }
+}
+
+impl<T: Word> ClipCorner<T> {
+    /// Corners that are the vertices, three at most.
+    pub(crate) fn of_vertices<const K: usize>(vertices: [Block<T, 4>; K]) -> [Self; K] {
         let one = T::ONE << (T::BITS - 1);
-        let unit = [
-            [one, T::ZERO, T::ZERO],
-            [T::ZERO, one, T::ZERO],
-            [T::ZERO, T::ZERO, one],
-        ];
-        let corners = vertices.into_iter().zip(unit).map(|(position, weights)| ClipCorner {
-            position,
-            weights: Block::new(weights, 1 - T::BITS as i32),
-        });
-        corners.collect()
+        let mut left = [one, T::ZERO, T::ZERO];
+        vertices.map(|position| {
+            let weights = Block::new(left, 1 - T::BITS as i32);
+            let [a, b, _] = left;
+            left = [T::ZERO, a, b];
+            ClipCorner { position, weights }
+        })
     }
 }
 
@@ -165,10 +204,15 @@ impl<T: Word, const N: usize> Planes<T, N> {
     /// What is left of a triangle, or of a line if K is 2: the first three vertices count. `None` for nothing.
     pub fn clip<const K: usize>(&self, vertices: [Block<T, 4>; K]) -> Option<Polygon<ClipCorner<T>, N>> {
         let mut polygon = Polygon::of_vertices(vertices);
-        for plane in &self.0 {
-            cut(&mut polygon, plane.mantissas());
-        }
+        self.cut(&mut polygon);
         (!polygon.is_empty()).then_some(polygon)
+    }
+
+    /// Leaves of a polygon what they keep.
+    pub(crate) fn cut(&self, polygon: &mut Polygon<ClipCorner<T>, N>) {
+        for plane in &self.0 {
+            cut(polygon, plane.mantissas());
+        }
     }
 
     /// Whether a point is on the kept side of all of them, exactly.
@@ -257,20 +301,20 @@ pub(crate) fn is_in_volume<T: Word>([x, y, z, w]: [T; 4], range: DepthRange) -> 
 /// Cuts a polygon in clip space to what lies before the camera, all w > 0: by the near plane, and where that is not enough
 /// (there is none, or it passes behind the camera) by all that [`to_view`] cuts by.
 pub(crate) fn before_camera<T: Word, W: Word, const N: usize>(
-    mut polygon: Polygon<ClipCorner<T>, N>,
+    polygon: &mut Polygon<ClipCorner<T>, N>,
     viewport: &Viewport<W>,
     range: DepthRange,
-) -> Option<Polygon<ClipCorner<T>, N>> {
+) -> Option<()> {
     let planes = ScreenPlanes::new(viewport, range);
     let outside = |corner: &ClipCorner<T>| planes.outcode(corner.position.mantissas());
     if polygon.iter().map(outside).fold(u8::MAX, |all, code| all & code) != 0 {
         return None;
     }
     if range != DepthRange::Unlimited {
-        cut(&mut polygon, near_plane(range));
+        cut(polygon, near_plane(range));
     }
     if polygon.iter().all(is_in_front) {
-        return Some(polygon);
+        return Some(());
     }
     to_view(polygon, viewport, range, Behind::Cut)
 }
@@ -293,14 +337,14 @@ pub(crate) fn at_far<T: Word>(inner: &ClipCorner<T>, outer: &ClipCorner<T>) -> C
 /// Cuts a polygon in clip space to the depth range and the guard band; every corner that is left has w > 0. `None` for
 /// nothing left, and where a corner has w = 0 and `behind` would divide by it.
 pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
-    mut polygon: Polygon<ClipCorner<T>, N>,
+    polygon: &mut Polygon<ClipCorner<T>, N>,
     viewport: &Viewport<W>,
     range: DepthRange,
     behind: Behind,
-) -> Option<Polygon<ClipCorner<T>, N>> {
+) -> Option<()> {
     let in_volume = |corner: &ClipCorner<T>| is_in_volume(corner.position.mantissas(), range);
     if viewport.is_in_guard() && polygon.iter().all(in_volume) {
-        return (!polygon.is_empty()).then_some(polygon);
+        return (!polygon.is_empty()).then_some(());
     }
     if behind == Behind::Divide {
         for corner in polygon.iter_mut() {
@@ -317,8 +361,8 @@ pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
             }
         }
     }
-    ScreenPlanes::new(viewport, range).cut(&mut polygon)?;
-    (!polygon.is_empty() && polygon.iter().all(is_in_front)).then_some(polygon)
+    ScreenPlanes::new(viewport, range).cut(polygon)?;
+    (!polygon.is_empty() && polygon.iter().all(is_in_front)).then_some(())
 }
 
 /// Keeps the part of a convex polygon whose distance is at least 0; none of it where no corner's is. Two corners are a
@@ -327,7 +371,8 @@ pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
 /// Exactly one run of corners is cut away, the one that holds the outermost, so that a polygon grows by at most one
 /// corner per plane. Rounding can leave another corner a last place outside; it stays where it is.
 ///
-/// One function for all planes, which are data: inlined for each, cutting is most of a small program's code.
+/// One function for all planes, which are data: inlined for each, cutting is most of a small program's code. In place: a
+/// second polygon is more stack than all else that clipping needs.
 #[inline(never)]
 pub(crate) fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, plane: [T; 4]) {
     let of = |corner: &ClipCorner<T>| distance(plane, corner.position.mantissas());
@@ -354,23 +399,31 @@ pub(crate) fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, 
             (first, last) = (first.min(i), i);
         }
     }
-    let stays = |i: usize| (first..=last).contains(&after(i + count - outermost));
-
-    let mut kept = Polygon::default();
-    for i in 0..count {
-        let (Some(corner), Some(next)) = (polygon.get(i), polygon.get(after(i + 1))) else {
-            continue;
-        };
-        let (stays, next_stays) = (stays(i), stays(after(i + 1)));
-        if stays {
-            kept.push(*corner);
-        }
-        if stays != next_stays && (count > 2 || i == 0) {
-            let (inner, outer) = if stays { (corner, next) } else { (next, corner) };
-            kept.push(crossing(inner, outer, plane));
-        }
+    if first > last {
+        *polygon = Polygon::default();
+        return;
     }
-    *polygon = kept;
+    // The corners that stay run from `enter` to `leave`.
+    let (enter, leave) = (after(outermost + first), after(outermost + last));
+    let edge = |inner: usize, outer: usize| Some(crossing(polygon.get(inner)?, polygon.get(outer)?, plane));
+    let edges = (edge(enter, after(outermost + first - 1)), edge(leave, after(leave + 1)));
+    let (Some(entering), Some(leaving)) = edges else {
+        return;
+    };
+    if count == 2 {
+        polygon.remove(outermost, 1);
+        polygon.insert(outermost, leaving);
+    } else if enter <= leave && enter > 0 {
+        // The first corner goes, and perhaps others at both ends.
+        polygon.remove(leave + 1, count - 1 - leave);
+        polygon.remove(0, enter);
+        polygon.insert(0, entering);
+        polygon.push(leaving);
+    } else {
+        polygon.remove(leave + 1, count - 1 - (last - first));
+        polygon.insert(leave + 1, leaving);
+        polygon.insert(leave + 2, entering);
+    }
 }
 
 /// Where the edge from `inner` to `outer` crosses the plane.

@@ -265,7 +265,7 @@ impl<T: Word> Matrix<T> {
         Self::from_scaled([a, b, c, o, d, e, f, o, g, h, i, o, o, o, o, one])
     }
 
-    fn rows(&self) -> [[T; 4]; 4] {
+    pub(crate) fn rows(&self) -> [[T; 4]; 4] {
         let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = self.0.mantissas();
         [[a, b, c, d], [e, f, g, h], [i, j, k, l], [m, n, o, p]]
     }

@@ -5,7 +5,8 @@ use core::marker::PhantomData;
 use crate::clip::DepthRange;
 use crate::edge::{SUBPIXELS, first_row};
 use crate::error::Error;
-use crate::num::{Block, Word};
+use crate::num::product::{high, high_unsigned, product};
+use crate::num::{Block, Word, near_reciprocal};
 use crate::window::Window;
 
 /// Where on the picture the view volume's x and y of −1…1 go, and where the samples of the pixels lie.
@@ -115,7 +116,7 @@ impl<W: Word> Viewport<W> {
     }
 
     /// Screen position in subpixels, rounded once to the nearest (a tie upwards), and depth in units of 2^-15 step of the
-    /// 16-bit buffer. `None` unless w > 0. Positions are moved into the guard band and depths into their range, which the
+    /// 16-bit buffer, within 9 units with words of 32 bits and cut to a unit with 64. `None` unless w > 0. Positions are moved into the guard band and depths into their range, which the
     /// clipped ones leave by no more than rounding.
     pub fn place<T: Word>(&self, position: Block<T, 4>, range: DepthRange) -> Option<(i32, i32, i32)> {
         self.place_within(position, range, Self::LIMIT)
@@ -171,6 +172,120 @@ impl<W: Word> Viewport<W> {
             depth_of(z, w, &divisor, range),
         )
     }
+
+    /// As [`place`](Self::place), to the same bits, for a position in the view volume, where that lies in the guard band: by
+    /// one reciprocal. `mantissas` are below 2^31 and share any scale.
+    ///
+    /// About 50 instructions on Cortex-M4.
+    #[inline(always)]
+    pub(crate) fn place_in_volume(&self, mantissas: [i32; 4], scale: DepthScale) -> (i32, i32, i32) {
+        let [x, y, z, w] = mantissas;
+        let ratio = Ratio::over(w);
+        let (x_ratio, y_ratio) = (ratio.of(x), ratio.of(y));
+        let depth = scale.depth(&ratio, z);
+        if let (Some(x), Some(y)) = (
+            nearest::<W>(x_ratio, self.scale.0, self.center.0),
+            nearest::<W>(y_ratio, self.scale.1, self.center.1),
+        ) {
+            return (x, y, depth);
+        }
+        let (x, y) = self.between_subpixels(x, y, w);
+        (x, y, depth)
+    }
+
+    /// Too near to the middle between two subpixels for a reciprocal to tell.
+    #[cold]
+    #[inline(never)]
+    fn between_subpixels(&self, x: i32, y: i32, w: i32) -> (i32, i32) {
+        let divisor = w.twice();
+        let coordinate = |v, scale, center| i32::quotient(rounded(v, scale, w), &divisor) + center;
+        (
+            coordinate(x, self.scale.0, self.center.0),
+            coordinate(y, self.scale.1, self.center.1),
+        )
+    }
+}
+
+/// What takes numbers v, |v| ≤ w, to v/w in units of 2^-29.
+struct Ratio {
+    reciprocal: i32,
+    shift: u32,
+}
+
+impl Ratio {
+    /// w in 1…2^31−1.
+    #[inline(always)]
+    fn over(w: i32) -> Self {
+        let w = w as u32;
+        let zeros = w.leading_zeros();
+        Ratio {
+            reciprocal: near_reciprocal(w.wrapping_shl(zeros)),
+            // For a bit less, which is the sign's.
+            shift: zeros.wrapping_sub(1),
+        }
+    }
+
+    /// Within 2 units of the true ratio, and its magnitude no larger than 2^29: the reciprocal is no more than one unit too
+    /// small, and the product is rounded down.
+    #[inline(always)]
+    fn of(&self, v: i32) -> i32 {
+        high(v.wrapping_shl(self.shift), self.reciprocal)
+    }
+}
+
+/// The subpixel nearest to ratio · scale + center, unless another is as near but for the error of the ratio.
+#[inline(always)]
+fn nearest<W: Word>(ratio: i32, scale: i32, center: i32) -> Option<i32> {
+    // In units of 2^-32 the ratio's error is 16 · scale at most.
+    let error = 16 * (W::GUARD * SUBPIXELS) as u32;
+    // Below 2^29 · 2^26.
+    let wide = ((center as i64) << 32) + (1 << 31) + product(ratio, scale << 3);
+    let from_middle = (wide as u32).wrapping_add(error);
+    (from_middle >= 2 * error).then_some((wide >> 32) as i32)
+}
+
+/// A [`DepthRange`] as numbers, so that nothing is decided vertex by vertex.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DepthScale {
+    /// All bits where depths count.
+    counts: i32,
+    /// All bits where they begin at −1.
+    from_minus_one: i32,
+    /// What takes a ratio in units of 2^-29, from the least on, to the whole of 32 bits.
+    bits: u32,
+}
+
+impl DepthScale {
+    #[inline(always)]
+    pub(crate) fn new(range: DepthRange) -> Self {
+        let (counts, from_minus_one, bits) = match range {
+            DepthRange::ZeroToOne => (-1, 0, 2),
+            DepthRange::MinusOneToOne => (-1, -1, 1),
+            DepthRange::Unlimited => (0, 0, 0),
+        };
+        DepthScale {
+            counts,
+            from_minus_one,
+            bits,
+        }
+    }
+
+    /// Whether a point with coordinates below 2^30 lies in the view volume.
+    #[inline(always)]
+    pub(crate) fn is_in_volume(&self, [x, y, z, w]: [i32; 4]) -> bool {
+        let least = w & self.from_minus_one;
+        // Nothing negative is left above −w, and 0…2w is no more than 31 bits.
+        let within = |v: i32, least: i32| v.wrapping_add(least) as u32 <= w.wrapping_add(least) as u32;
+        w > 0 && within(x, w) && within(y, w) && within(z & self.counts, least)
+    }
+
+    /// Depth in units of 2^-15 step, of a z in the range: within 9 units.
+    #[inline(always)]
+    fn depth(&self, ratio: &Ratio, z: i32) -> i32 {
+        let ratio = ratio.of(z & self.counts).wrapping_add(self.from_minus_one & 1 << 29);
+        // 65535·2^15 per unit of z/w over 0…1.
+        high_unsigned((ratio as u32).wrapping_shl(self.bits), 65535 << 16) as i32
+    }
 }
 
 /// Subpixels beyond which nothing is divided; just short of 2^31.
@@ -186,6 +301,9 @@ fn rounded<T: Word>(v: T, scale: i32, w: T) -> T::Wide {
 /// Depth in units of 2^-15 step, for a z in the range.
 #[inline(always)]
 fn depth_of<T: Word>(z: T, w: T, twice_w: &T::Divisor, range: DepthRange) -> i32 {
+    if T::BITS == <i32 as Word>::BITS {
+        return DepthScale::new(range).depth(&Ratio::over(w.low_i32()), z.low_i32());
+    }
     // 65535·2^15 per unit of z/w over 0…1.
     let full = T::from_i32(65535 << 15);
     match range {

@@ -106,10 +106,20 @@ where
         })
         .collect();
     let vertices: [Vertex<T, V::Vertex>; 3] = vertices.try_into().ok().unwrap();
+    let ready = vertices.map(|v| view.vertex(v.position, v.carried));
+    compare_ready::<T, W, V>(view, vertices, ready)
+}
+
+fn compare_ready<T: Word, W: Word, V>(
+    view: &View<T, W, 0>,
+    vertices: [Vertex<T, V::Vertex>; 3],
+    ready: [ScreenVertex<T, V::Vertex>; 3],
+) -> Way
+where
+    V: Carried + Debug,
+{
     let mut expected = Vec::new();
     view.project::<V>(&vertices, |polygon| expected.push(outline(polygon)));
-
-    let ready = vertices.map(|v| view.vertex(v.position, v.carried));
     let (mut found, mut way) = (Vec::new(), Way::Nothing);
     view.assemble::<V>(ready.each_ref(), |left| match left {
         Assembled::Triangle(triangle) => {
@@ -206,6 +216,46 @@ proptest! {
         entries[5] *= small;
         check::<i32>(point, entries);
         check::<i64>(point, entries);
+    }
+
+    /// Positions of 16 bits lie where the exact projection has them, within their bound; and triangles of them are, to the bit,
+    /// those of the places in clip space that they were given, clipped or not.
+    #[test]
+    fn stored_vertices_are_where_they_say(
+        view in view::<i32, i32>(),
+        points in prop::array::uniform3(any::<[i16; 3]>()),
+        linear in prop::array::uniform12(-1.0..1.0f64),
+        distance in prop::array::uniform4(-2.0..2.0f64),
+        (far, tiny) in (0.5..4.0f64, prop::sample::select(&[1.0, 1e-3, 1e-9][..])),
+        values in prop::array::uniform3(prop::array::uniform3(0..0x1f_ffffi32)),
+    ) {
+        let mut entries = [0.0; 16];
+        for (row, chunk) in linear.chunks(3).enumerate() {
+            entries[4 * row..][..3].copy_from_slice(chunk);
+            entries[4 * row + 3] = distance[row];
+        }
+        // Mostly before the camera.
+        entries[15] += far;
+        entries[..12].iter_mut().for_each(|entry| *entry *= tiny);
+        let projection = Matrix::<i32>::from_rows(block(entries));
+        let view = View { projection, ..view };
+        let stored = view.stored();
+        let ready = [0, 1, 2].map(|i| stored.vertex(points[i], values[i]));
+
+        let exact: Matrix<i64> = Matrix::from_rows(block(exact::floats(projection.entries())));
+        let entries = exact::floats(exact.entries());
+        let most = entries.chunks(4).map(|row| row.iter().map(|m| m.abs()).sum());
+        let bound = most.fold(0.0, f64::max) * 2f64.powi(-26);
+        for (point, vertex) in points.iter().zip(&ready) {
+            let expected = exact::floats(exact.transform(point.point()));
+            for (found, expected) in exact::floats(vertex.position()).iter().zip(expected) {
+                prop_assert!((found - expected).abs() <= bound, "{found} instead of {expected}");
+            }
+        }
+        let vertices = [0, 1, 2].map(|i| Vertex { position: ready[i].position(), carried: values[i] });
+        let as_given = View { projection: Matrix::identity(), ..view.clone() };
+        compare_ready::<i32, i32, Linear<3>>(&as_given, vertices, ready);
+        compare_ready::<i32, i32, Perspective<3>>(&as_given, vertices, ready);
     }
 
     /// A sun on a turned model, against the formula in float64.

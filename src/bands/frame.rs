@@ -9,7 +9,7 @@ use crate::num::Word;
 use crate::screen::{Corner, Position, Shape, SubPx};
 use crate::span::doubled_area;
 use crate::target::Buffer;
-use crate::view::{Assembled, Carried, ScreenVertex, Vertex, View};
+use crate::view::{Carried, ScreenVertex, Vertex, View, Way};
 use crate::window::Window;
 
 /// The frame being drawn: takes triangles, and stores them for all bands or draws them into one.
@@ -76,13 +76,16 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
         I: Index,
     {
         for [a, b, c] in triangles {
-            if let (Some(a), Some(b), Some(c)) = (
-                vertices.get(a.to_usize()),
-                vertices.get(b.to_usize()),
-                vertices.get(c.to_usize()),
-            ) {
-                self.assembled(view, [a, b, c], fragment);
-            }
+            let Some(a) = vertices.get(a.to_usize()) else {
+                continue;
+            };
+            let Some(b) = vertices.get(b.to_usize()) else {
+                continue;
+            };
+            let Some(c) = vertices.get(c.to_usize()) else {
+                continue;
+            };
+            self.assembled(view, [a, b, c], fragment);
         }
     }
 
@@ -97,10 +100,14 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
         T: Word,
         F::Varying: Carried,
     {
-        view.assemble::<F::Varying>(vertices, |left| match left {
-            Assembled::Triangle(triangle) => self.shape(triangle, Position::placed, fragment),
-            Assembled::Polygon(shape) => self.shape(shape, Position::placed, fragment),
-        });
+        let [a, b, c] = vertices;
+        match view.way::<F::Varying>([a, b, c]) {
+            Way::Nowhere => {}
+            Way::Whole(triangle) => self.shape(&triangle, Position::placed, fragment),
+            Way::Across => view.clip_triangle::<F::Varying>([a, b, c], &mut |shape| {
+                self.shape(shape, Position::placed, fragment);
+            }),
+        }
     }
 
     /// As [`draw::polygon`]: a convex polygon with corners within ±4096 px, such as [`View::project`] makes.

@@ -154,7 +154,7 @@ where
         };
         line = Polygon::of_vertices([a.position, b.position]);
     }
-    let line = to_view(line, &state.viewport, DepthRange::Unlimited, Behind::Cut)?;
+    to_view(&mut line, &state.viewport, DepthRange::Unlimited, Behind::Cut)?;
     let shift = if wanted.depth && beyond_range(&line) {
         // The whole line keeps its pixels: a unit of 2^-7 step reaches 128 depth ranges far.
         8
@@ -173,8 +173,9 @@ fn keeps_whole<I, T: Word, W: Word, const N: usize>(
     if state.culling == Culling::Off {
         return true;
     }
-    let polygon = to_view(clipped.clone(), &state.viewport, DepthRange::Unlimited, Behind::Cut);
-    polygon.is_some_and(|polygon| keeps(state.culling, &polygon, &state.viewport))
+    let mut polygon = clipped.clone();
+    let left = to_view(&mut polygon, &state.viewport, DepthRange::Unlimited, Behind::Cut);
+    left.is_some() && keeps(state.culling, &polygon, &state.viewport)
 }
 
 /// Whether a polygon is drawn that [`to_view`] has made.
@@ -216,7 +217,7 @@ fn beyond_range<T: Word, const N: usize>(polygon: &Polygon<ClipCorner<T>, N>) ->
 /// Calls `draw` with a convex part of the polygon, or where depth leaves its range, with up to three: before it, at depth
 /// 0, in it, and beyond it, at its end. They share their edges exactly.
 fn in_range<T, W, V, const N: usize>(
-    polygon: Polygon<ClipCorner<T>, N>,
+    mut polygon: Polygon<ClipCorner<T>, N>,
     vertices: &Given<T, V::Vertex>,
     viewport: &Viewport<W>,
     culling: Culling,
@@ -227,9 +228,9 @@ fn in_range<T, W, V, const N: usize>(
     W: Word,
     V: Carried,
 {
-    let Some(polygon) = to_view(polygon, viewport, DepthRange::Unlimited, Behind::Cut) else {
+    if to_view(&mut polygon, viewport, DepthRange::Unlimited, Behind::Cut).is_none() {
         return;
-    };
+    }
     if !wanted.depth || !beyond_range(&polygon) {
         if let Some(piece) = place(&polygon, vertices, viewport, wanted, 0)
             && keeps_piece(culling, &piece, viewport)

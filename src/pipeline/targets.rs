@@ -68,7 +68,11 @@ impl<C: Target> Attachment for C {
     }
     #[inline(always)]
     fn cells(&mut self, span: &Span) -> IterMut<'_, C::Pixel> {
-        self.span(span.row, span.left, span.right).iter_mut()
+        // Not by `span`, whose way for spans that are not there hides from the compiler how many pixels there are: flat fills
+        // would look for the end at each of them (452 thousand instructions for 3 large triangles, not 315).
+        let left = span.left.wrapping_sub(self.window().left) as u32 as usize;
+        let right = left.wrapping_add(span.right.wrapping_sub(span.left) as u32 as usize);
+        self.row(span.row).get_mut(left..right).unwrap_or_default().iter_mut()
     }
 }
 

@@ -3,12 +3,12 @@
 use super::{in_front, w_of};
 use crate::clip::{ClipCorner, Polygon};
 use crate::num::{Block, Scaled, Word};
-use crate::varying::{Color565, Linear, LinearFan, Perspective, Varying};
+use crate::varying::{Color565, Linear, Linear32, LinearFan, Perspective, Perspective32, PerspectiveSpans, Varying};
 
 /// A varying that can be mixed from what three vertices carry.
 pub trait Carried: Varying {
     /// What a vertex carries.
-    type Vertex: Copy;
+    type Vertex: Copy + core::fmt::Debug;
     /// Which shares [`mix`](Self::mix) wants.
     const WANTS: Wants;
     /// At a corner of the polygon.
@@ -23,6 +23,11 @@ pub trait Carried: Varying {
             Self::mix(vertices, &b),
             Self::mix(vertices, &c),
         ]
+    }
+    /// At a vertex of such a triangle, where it is what the vertex carries and nothing else: then it is not copied.
+    #[inline(always)]
+    fn given(_: &Self::Vertex) -> Option<Self> {
+        None
     }
     /// What a vertex would carry where the triangle leaves the space before the camera.
     fn between(vertices: [Self::Vertex; 3], weights: &Weights) -> Self::Vertex;
@@ -93,6 +98,10 @@ impl Carried for () {
     #[inline(always)]
     fn mix(_: [(); 3], _: &Weights) -> Self {}
     #[inline(always)]
+    fn given((): &()) -> Option<Self> {
+        Some(())
+    }
+    #[inline(always)]
     fn between(_: [(); 3], _: &Weights) {}
 }
 
@@ -102,6 +111,10 @@ impl<const N: usize> Carried for Linear<N> {
     #[inline]
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         Linear(Self::between(vertices, weights))
+    }
+    #[inline(always)]
+    fn given(vertex: &[i32; N]) -> Option<Self> {
+        Some(Linear(*vertex))
     }
     #[inline(always)]
     fn whole([a, b, c]: [Self::Vertex; 3], _: impl Fn() -> [Weights; 3]) -> [Self; 3] {
@@ -119,6 +132,10 @@ impl Carried for Color565 {
     #[inline]
     fn mix(vertices: [[i32; 3]; 3], weights: &Weights) -> Self {
         Color565(Self::between(vertices, weights))
+    }
+    #[inline(always)]
+    fn given(vertex: &[i32; 3]) -> Option<Self> {
+        Some(Color565(*vertex))
     }
     #[inline(always)]
     fn whole([a, b, c]: [Self::Vertex; 3], _: impl Fn() -> [Weights; 3]) -> [Self; 3] {
@@ -139,6 +156,10 @@ impl<const N: usize> Carried for LinearFan<N> {
     #[inline]
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         LinearFan(Self::between(vertices, weights))
+    }
+    #[inline(always)]
+    fn given(vertex: &[i32; N]) -> Option<Self> {
+        Some(LinearFan(*vertex))
     }
     #[inline(always)]
     fn whole([a, b, c]: [Self::Vertex; 3], _: impl Fn() -> [Weights; 3]) -> [Self; 3] {
@@ -184,6 +205,49 @@ impl<const N: usize> Carried for Perspective<N> {
     }
 }
 
+impl<const N: usize> Carried for Linear32<N> {
+    type Vertex = [i32; N];
+    const WANTS: Wants = Wants::SCREEN;
+    #[inline]
+    fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
+        Linear32(Self::between(vertices, weights))
+    }
+    #[inline(always)]
+    fn whole([a, b, c]: [Self::Vertex; 3], _: impl Fn() -> [Weights; 3]) -> [Self; 3] {
+        [Linear32(a), Linear32(b), Linear32(c)]
+    }
+    #[inline]
+    fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
+        Linear::<N>::between(vertices, weights)
+    }
+}
+
+impl<const N: usize> Carried for Perspective32<N> {
+    type Vertex = [i32; N];
+    const WANTS: Wants = Wants::SPACE;
+    #[inline]
+    fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
+        Perspective32(Perspective::mix(vertices, weights))
+    }
+    #[inline]
+    fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
+        Perspective::<N>::between(vertices, weights)
+    }
+}
+
+impl<const N: usize, const BOUND: u32> Carried for PerspectiveSpans<N, BOUND> {
+    type Vertex = [i32; N];
+    const WANTS: Wants = Wants::SPACE;
+    #[inline]
+    fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
+        PerspectiveSpans(Perspective::mix(vertices, weights))
+    }
+    #[inline]
+    fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
+        Perspective::<N>::between(vertices, weights)
+    }
+}
+
 /// Both, side by side.
 impl<A: Carried, B: Carried> Carried for (A, B) {
     type Vertex = (A::Vertex, B::Vertex);
@@ -192,6 +256,10 @@ impl<A: Carried, B: Carried> Carried for (A, B) {
     fn mix(vertices: [Self::Vertex; 3], weights: &Weights) -> Self {
         let (first, second) = (vertices.map(|v| v.0), vertices.map(|v| v.1));
         (A::mix(first, weights), B::mix(second, weights))
+    }
+    #[inline(always)]
+    fn given(vertex: &Self::Vertex) -> Option<Self> {
+        Some((A::given(&vertex.0)?, B::given(&vertex.1)?))
     }
     #[inline(always)]
     fn whole(vertices: [Self::Vertex; 3], weights: impl Fn() -> [Weights; 3]) -> [Self; 3] {
@@ -219,6 +287,16 @@ fn sum<const N: usize>(shares: [i32; 3], vertices: [[i32; N]; 3]) -> [i32; N] {
 }
 
 impl Weights {
+    /// Those of vertex `index` where w is the same everywhere.
+    pub(super) fn of_vertex(index: usize) -> Self {
+        Weights {
+            screen: [0; 3],
+            space: [0; 3],
+            vertex: Some(index),
+            affine: true,
+        }
+    }
+
     fn pick<V>(&self, [a, b, c]: [V; 3]) -> Option<V> {
         match self.vertex? {
             0 => Some(a),
@@ -303,12 +381,7 @@ impl<T: Word> Weigh<T> {
 
 /// The weights of a triangle's own corners, before the camera all of them: what [`Weigh`] makes of them.
 pub(super) fn at_vertices<T: Word>(w: [Scaled<T>; 3]) -> [Weights; 3] {
-    let mut weights = [0, 1, 2].map(|i| Weights {
-        screen: [0; 3],
-        space: [0; 3],
-        vertex: Some(i),
-        affine: true,
-    });
+    let mut weights = [0, 1, 2].map(Weights::of_vertex);
     let [a, b, c] = w;
     if a == b && b == c {
         return weights;

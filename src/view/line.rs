@@ -5,8 +5,8 @@ use crate::screen::{Shape, end};
 use crate::span::Corners;
 use crate::varying::Varying;
 
-use super::{Carried, ProjectedCorner, Vertex, View, in_clip_space, w_of};
-use crate::clip::Polygon;
+use super::{Carried, ProjectedCorner, Vertex, View, Weigh, in_clip_space, w_of};
+use crate::clip::{Polygon, to_view};
 
 /// The two ends of a line on the screen and what they carry.
 #[derive(Debug)]
@@ -63,7 +63,9 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
             vertex_w = [&a, &b, &b].map(|corner| w_of(corner.position));
             line = Polygon::of_vertices([a.position, b.position]);
         }
-        let corners = self.place::<V>(line, vertex_w, carried)?;
-        Some(ProjectedLine([*corners.get(0)?, *corners.get(1)?]))
+        to_view(&mut line, &self.viewport, self.depth_range, self.behind)?;
+        let weigh = Weigh::new(&line, vertex_w, V::WANTS);
+        let end = |i| ProjectedCorner::new(&self.viewport, self.depth_range, &weigh, &carried, line.get(i)?);
+        Some(ProjectedLine([end(0)?, end(1)?]))
     }
 }

@@ -4,6 +4,7 @@ mod carried;
 mod line;
 mod point;
 mod ready;
+mod stored;
 
 use core::cmp::Ordering;
 
@@ -18,7 +19,9 @@ pub use carried::{Carried, Wants, Weights};
 pub(crate) use carried::{Weigh, in_clip_space};
 use carried::{at_cut, whole};
 pub use line::ProjectedLine;
+pub(crate) use ready::Way;
 pub use ready::{Assembled, ScreenVertex, Triangle};
+pub use stored::StoredView;
 
 /// Which triangles are drawn, by the way their corners run on the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,8 +96,8 @@ pub struct Vertex<T, A> {
 /// A polygon on the screen and what its corners carry.
 #[derive(Debug, Clone)]
 pub struct Projected<V, const N: usize> {
-    corners: Polygon<ProjectedCorner<V>, N>,
     first: ProjectedCorner<V>,
+    others: Polygon<ProjectedCorner<V>, N>,
 }
 
 /// A corner that clipping has made, and what a vertex in its place would carry.
@@ -111,14 +114,20 @@ impl<T: Word, A> Made<T, A> {
         w_of(self.position).over(self.size).unwrap_or(Block::ZERO)
     }
 
-    /// A triangle, or an edge, whose vertices are these points in space.
-    fn polygon<const K: usize, const N: usize>(corners: [&Self; K]) -> Polygon<ClipCorner<T>, N> {
-        let mut polygon = Polygon::of_vertices(corners.map(|corner| corner.position));
-        for (corner, made) in polygon.iter_mut().zip(corners) {
+    /// The corners of a triangle, or the ends of an edge, whose vertices are these points in space.
+    fn corners<const K: usize>(made: [&Self; K]) -> [ClipCorner<T>; K] {
+        let mut corners = ClipCorner::of_vertices(made.map(|corner| corner.position));
+        for (corner, made) in corners.iter_mut().zip(made) {
             corner.weights = corner.weights.times(made.size);
         }
-        polygon
+        corners
     }
+}
+
+/// What the far plane leaves of an edge: its start or not, and the corner that it makes there.
+struct ToFar<T, A> {
+    stays: bool,
+    corner: Option<Made<T, A>>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -128,17 +137,36 @@ struct ProjectedCorner<V> {
     varying: V,
 }
 
+impl<V: Carried> ProjectedCorner<V> {
+    /// A corner of a polygon, or of a line, that lies in the view.
+    #[inline]
+    fn new<T: Word, W: Word>(
+        viewport: &Viewport<W>,
+        range: DepthRange,
+        weigh: &Weigh<T>,
+        carried: &[V::Vertex; 3],
+        corner: &ClipCorner<T>,
+    ) -> Option<Self> {
+        let (x, y, depth) = viewport.place(corner.position, range)?;
+        Some(ProjectedCorner {
+            position: (x, y),
+            depth,
+            varying: V::mix(*carried, &weigh.weights::<V>(corner)),
+        })
+    }
+}
+
 impl<V: Copy, const N: usize> Projected<V, N> {
     #[inline]
     fn corner(&self, index: usize) -> &ProjectedCorner<V> {
-        self.corners.get(index).unwrap_or(&self.first)
+        self.others.get(index.wrapping_sub(1)).unwrap_or(&self.first)
     }
 }
 
 impl<V: Copy, const N: usize> Corners for Projected<V, N> {
     #[inline]
     fn count(&self) -> usize {
-        self.corners.len()
+        1 + self.others.len()
     }
     #[inline]
     fn position(&self, index: usize) -> (i32, i32) {
@@ -170,45 +198,88 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
     ///   over the screen only from there on: along the edges to the far plane, which is cut next, and then in each triangle
     ///   of the fan by itself. What else is cut away does not change what stays.
     pub fn project<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3], mut draw: impl FnMut(&Projected<V, N>)) {
-        let Some(mut polygon) = self.planes.clip(vertices.each_ref().map(|v| v.position)) else {
-            return;
-        };
-        for corner in polygon.iter_mut() {
-            corner.position = self.projection.transform(corner.position);
+        let mut projected = None;
+        if !self.project_one(vertices, &mut projected) {
+            self.project_all::<V>(vertices, &mut draw);
+        } else if let Some(projected) = &projected {
+            draw(projected);
         }
-        let vertex_w = vertices.each_ref().map(|v| w_of(self.projection.transform(v.position)));
+    }
+
+    /// What is left, where that is one polygon or nothing; whether it is. A function of its own, whose stack is free again when
+    /// the polygon is drawn.
+    #[inline(never)]
+    fn project_one<V: Carried>(
+        &self,
+        vertices: &[Vertex<T, V::Vertex>; 3],
+        projected: &mut Option<Projected<V, N>>,
+    ) -> bool {
+        if V::WANTS.fan && !self.planes.is_empty() {
+            return false;
+        }
+        let (mut polygon, vertex_w) = self.clip(vertices);
+        if self.is_across::<V>(vertex_w) || self.is_through_infinity(&polygon) {
+            return false;
+        }
+        let carried = vertices.each_ref().map(|v| v.carried);
+        self.finish(&mut polygon, vertex_w, carried, projected);
+        true
+    }
+
+    /// All that is left, one triangle of a fan after the other.
+    #[cold]
+    #[inline(never)]
+    fn project_all<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3], draw: &mut impl FnMut(&Projected<V, N>)) {
+        let (mut polygon, vertex_w) = self.clip(vertices);
         let carried = vertices.each_ref().map(|v| v.carried);
         if V::WANTS.fan && !self.planes.is_empty() {
             self.fan::<V>(&polygon, carried, draw);
         } else {
-            self.cut::<V>(polygon, vertex_w, carried, &mut draw);
+            self.cut::<V>(&mut polygon, vertex_w, carried, draw);
         }
+    }
+
+    /// What user planes leave, in clip space, and w of the vertices.
+    #[inline(always)]
+    fn clip<A>(&self, vertices: &[Vertex<T, A>; 3]) -> (Polygon<ClipCorner<T>, N>, [Scaled<T>; 3]) {
+        let mut polygon = Polygon::of_vertices(vertices.each_ref().map(|v| v.position));
+        self.planes.cut(&mut polygon);
+        for corner in polygon.iter_mut() {
+            corner.position = self.projection.transform(corner.position);
+        }
+        let vertex_w = vertices.each_ref().map(|v| w_of(self.projection.transform(v.position)));
+        (polygon, vertex_w)
+    }
+
+    /// Whether a triangle has to be cut [where it passes the camera](Self::across).
+    #[inline]
+    fn is_across<V: Carried>(&self, vertex_w: [Scaled<T>; 3]) -> bool {
+        V::WANTS.screen && self.behind == Behind::Cut && !vertex_w.into_iter().all(in_front)
+    }
+
+    /// Whether a polygon is no convex one on the screen.
+    #[inline]
+    fn is_through_infinity(&self, polygon: &Polygon<ClipCorner<T>, N>) -> bool {
+        self.behind == Behind::Divide && polygon.len() > 3 && changes_sign(polygon)
     }
 
     /// What user planes have left.
     fn cut<V: Carried>(
         &self,
-        polygon: Polygon<ClipCorner<T>, N>,
+        polygon: &mut Polygon<ClipCorner<T>, N>,
         vertex_w: [Scaled<T>; 3],
         carried: [V::Vertex; 3],
         draw: &mut impl FnMut(&Projected<V, N>),
     ) {
-        if V::WANTS.screen && self.behind == Behind::Cut && !vertex_w.into_iter().all(in_front) {
+        if self.is_across::<V>(vertex_w) {
             self.across::<V>(polygon, vertex_w, carried, draw);
-            return;
-        }
-        let mut finish = |polygon| {
-            if let Some(projected) = self.finish(polygon, vertex_w, carried) {
-                draw(&projected);
-            }
-        };
-        if self.behind == Behind::Divide && polygon.len() > 3 && changes_sign(&polygon) {
+        } else if self.is_through_infinity(polygon) {
             for i in 2..polygon.len() {
                 let corners = [0, i - 1, i].into_iter().filter_map(|i| polygon.get(i));
-                finish(corners.copied().collect());
+                self.finished(&mut corners.copied().collect(), vertex_w, carried, draw);
             }
         } else {
-            finish(polygon);
+            self.finished(polygon, vertex_w, carried, draw);
         }
     }
 
@@ -217,60 +288,70 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
     #[inline(never)]
     fn across<V: Carried>(
         &self,
-        polygon: Polygon<ClipCorner<T>, N>,
+        polygon: &mut Polygon<ClipCorner<T>, N>,
         vertex_w: [Scaled<T>; 3],
         carried: [V::Vertex; 3],
         draw: &mut impl FnMut(&Projected<V, N>),
     ) {
-        let Some(before) = before_camera(polygon, &self.viewport, self.depth_range) else {
+        if before_camera(polygon, &self.viewport, self.depth_range).is_none() {
             return;
-        };
+        }
         let made = |corner: &ClipCorner<T>| Made {
             position: corner.position,
             size: whole(corner.weights),
             carried: V::between(carried, &at_cut(corner, vertex_w)),
         };
-        let kept = self.to_far::<V>(&before.iter().map(made).collect());
-        for i in 2..kept.len() {
-            let (Some(first), Some(second), Some(third)) = (kept.get(0), kept.get(i - 1), kept.get(i)) else {
-                continue;
-            };
-            let corners = [first, second, third];
-            let w = corners.map(Made::w);
-            if let Some(projected) = self.finish(Made::polygon(corners), w, corners.map(|corner| corner.carried)) {
-                draw(&projected);
+        let mut fan = None;
+        let mut next = |corner| match &mut fan {
+            None => fan = Some((corner, None)),
+            Some((_, second @ None)) => *second = Some(corner),
+            Some((first, Some(second))) => {
+                self.part::<V>([first, second, &corner], draw);
+                *second = corner;
+            }
+        };
+        let ends = polygon.iter().skip(1).chain(polygon.get(0));
+        for (a, b) in polygon.iter().zip(ends) {
+            let (start, end) = (made(a), made(b));
+            let crossing = self.to_far::<V>(&start, &end);
+            if crossing.stays {
+                next(start);
+            }
+            if let Some(corner) = crossing.corner {
+                next(corner);
             }
         }
     }
 
-    /// Cuts off what is beyond the far plane, values being linear over the screen along each edge.
-    fn to_far<V: Carried>(&self, before: &Polygon<Made<T, V::Vertex>, N>) -> Polygon<Made<T, V::Vertex>, N> {
-        let mut kept = Polygon::default();
-        let next = before.iter().skip(1).chain(before.get(0));
-        for (a, b) in before.iter().zip(next) {
-            let ends: Polygon<ClipCorner<T>, N> = Made::polygon([a, b]);
-            let (Some(start), Some(end)) = (ends.get(0), ends.get(1)) else {
-                continue;
-            };
-            let beyond = [start, end].map(|corner| is_beyond(corner, self.depth_range));
-            if !beyond[0] {
-                kept.push(*a);
-            }
-            let corner = match beyond {
-                [false, true] => at_far(start, end),
-                [true, false] => at_far(end, start),
-                _ => continue,
-            };
-            kept.push(Made {
+    /// A triangle of corners that clipping has made.
+    #[inline(never)]
+    fn part<V: Carried>(&self, corners: [&Made<T, V::Vertex>; 3], draw: &mut impl FnMut(&Projected<V, N>)) {
+        let mut polygon = Made::corners(corners).into_iter().collect();
+        let w = corners.map(Made::w);
+        self.finished(&mut polygon, w, corners.map(|corner| corner.carried), draw);
+    }
+
+    /// Cuts off what is beyond the far plane of an edge, values being linear over the screen along it.
+    #[inline(never)]
+    fn to_far<V: Carried>(&self, a: &Made<T, V::Vertex>, b: &Made<T, V::Vertex>) -> ToFar<T, V::Vertex> {
+        let [start, end] = Made::corners([a, b]);
+        let beyond = [&start, &end].map(|corner| is_beyond(corner, self.depth_range));
+        let corner = match beyond {
+            [false, true] => Some(at_far(&start, &end)),
+            [true, false] => Some(at_far(&end, &start)),
+            _ => None,
+        };
+        ToFar {
+            stays: !beyond[0],
+            corner: corner.map(|corner| Made {
                 position: corner.position,
                 size: whole(corner.weights),
                 carried: V::between(
                     [a.carried, b.carried, b.carried],
                     &at_cut(&corner, [a.w(), b.w(), b.w()]),
                 ),
-            });
+            }),
         }
-        kept
     }
 
     /// Every triangle of the fan as if it had been given: its corners' values are linear in clip space, and what is cut from
@@ -279,7 +360,7 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         &self,
         polygon: &Polygon<ClipCorner<T>, N>,
         carried: [V::Vertex; 3],
-        mut draw: impl FnMut(&Projected<V, N>),
+        draw: &mut impl FnMut(&Projected<V, N>),
     ) {
         for i in 2..polygon.len() {
             let (Some(first), Some(second), Some(third)) = (polygon.get(0), polygon.get(i - 1), polygon.get(i)) else {
@@ -287,47 +368,55 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
             };
             let corners = [first, second, third];
             let values = corners.map(|corner| V::between(carried, &in_clip_space(corner)));
-            let given = Polygon::of_vertices(corners.map(|corner| corner.position));
+            let mut given = Polygon::of_vertices(corners.map(|corner| corner.position));
             let w = corners.map(|corner| w_of(corner.position));
-            self.cut::<V>(given, w, values, &mut draw);
+            self.cut::<V>(&mut given, w, values, draw);
         }
     }
 
-    /// From clip space to the screen.
-    fn finish<V: Carried>(
+    /// From clip space to the screen, and drawn.
+    fn finished<V: Carried>(
         &self,
-        polygon: Polygon<ClipCorner<T>, N>,
+        polygon: &mut Polygon<ClipCorner<T>, N>,
         vertex_w: [Scaled<T>; 3],
         carried: [V::Vertex; 3],
-    ) -> Option<Projected<V, N>> {
-        let corners = self.place(polygon, vertex_w, carried)?;
-        let projected = Projected {
-            first: *corners.get(0)?,
-            corners,
-        };
-
-        self.cull.keeps(doubled_area(&projected)).then_some(projected)
+        draw: &mut impl FnMut(&Projected<V, N>),
+    ) {
+        let mut projected = None;
+        self.finish(polygon, vertex_w, carried, &mut projected);
+        if let Some(projected) = &projected {
+            draw(projected);
+        }
     }
 
-    /// The corners on the screen of what is left of a polygon, or of a line, in clip space.
-    fn place<V: Carried>(
+    /// From clip space to the screen; nothing where it is not drawn.
+    #[inline(never)]
+    fn finish<V: Carried>(
         &self,
-        polygon: Polygon<ClipCorner<T>, N>,
+        polygon: &mut Polygon<ClipCorner<T>, N>,
         vertex_w: [Scaled<T>; 3],
         carried: [V::Vertex; 3],
-    ) -> Option<Polygon<ProjectedCorner<V>, N>> {
-        let polygon = to_view(polygon, &self.viewport, self.depth_range, self.behind)?;
-        let weigh = Weigh::new(&polygon, vertex_w, V::WANTS);
-        let place = |corner: &ClipCorner<T>| {
-            let (x, y, depth) = self.viewport.place(corner.position, self.depth_range)?;
-            let varying = V::mix(carried, &weigh.weights::<V>(corner));
-            Some(ProjectedCorner {
-                position: (x, y),
-                depth,
-                varying,
-            })
+        projected: &mut Option<Projected<V, N>>,
+    ) {
+        let range = self.depth_range;
+        if to_view(polygon, &self.viewport, range, self.behind).is_none() {
+            return;
+        }
+        let weigh = Weigh::new(polygon, vertex_w, V::WANTS);
+        let mut corners = polygon
+            .iter()
+            .filter_map(|corner| ProjectedCorner::new(&self.viewport, range, &weigh, &carried, corner));
+        let Some(first) = corners.next() else {
+            return;
         };
-        Some(polygon.iter().filter_map(place).collect())
+        let polygon = projected.insert(Projected {
+            first,
+            others: Polygon::default(),
+        });
+        corners.for_each(|corner| polygon.others.push(corner));
+        if !self.cull.keeps(doubled_area(polygon)) {
+            *projected = None;
+        }
     }
 }
 
