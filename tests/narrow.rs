@@ -10,7 +10,7 @@ use fixel::fragment::{Flat565, Fragment, Gouraud565};
 use fixel::slope::Weights;
 use fixel::span::doubled_area;
 use fixel::target::Buffer;
-use fixel::varying::{Color565, Perspective, Perspective32, Varying};
+use fixel::varying::{Color565, Linear32, Perspective, Perspective32, Varying};
 use fixel::window::Window;
 use proptest::prelude::*;
 use triangles::{Case, Triangle, cases, positions, values};
@@ -167,6 +167,18 @@ proptest! {
         case in cases(4096), corner in prop::array::uniform3(-(SIDE << 16)..=SIDE << 16), inverses in inverses(),
     ) {
         check_perspective(&case, corner, inverses)?;
+    }
+
+    #[test]
+    fn affine_values_are_near_the_exact_plane(
+        case in cases(4096), corner in prop::array::uniform3(-(SIDE << 16)..=SIDE << 16),
+    ) {
+        let shape = triangle(&case, corner.map(|v| Linear32([v])));
+        for ((x, y), [value]) in values::<i32, _>(&shape, case.window) {
+            let (numerator, area) = naive::value(case.corners, corner.map(i64::from), x, y);
+            let error = (value as f64 - numerator as f64 / area as f64).abs();
+            prop_assert!(error <= 2200.0, "({}, {}): {} units off", x, y, error);
+        }
     }
 
     #[test]

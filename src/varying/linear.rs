@@ -2,7 +2,7 @@
 
 use core::convert::Infallible;
 
-use super::{Varying, each, planes};
+use super::{Perspective, Varying, each, planes};
 use crate::gradient::{Basis, Place, Plane, Ramp};
 
 /// N values linear over the screen, |v| ≤ 2^30 in units of the user's choice.
@@ -17,6 +17,14 @@ use crate::gradient::{Basis, Place, Plane, Ramp};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Linear<const N: usize>(pub [i32; N]);
+
+impl<const N: usize> From<Perspective<N>> for Linear<N> {
+    /// The values at the corner: what is affine instead.
+    #[inline]
+    fn from(corner: Perspective<N>) -> Self {
+        Linear(corner.values)
+    }
+}
 
 impl<const N: usize> Varying for Linear<N> {
     type Planes = [Plane; N];

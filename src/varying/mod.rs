@@ -6,13 +6,17 @@ use crate::slope::{Slopes, Weights};
 
 mod color565;
 mod linear;
+mod linear32;
 mod perspective;
 mod perspective32;
+mod spans;
 
 pub use color565::{Color565, Color565Ramps, Color565Slopes, Packed565};
 pub use linear::{Linear, LinearFan};
+pub use linear32::{Linear32, Linear32Slopes};
 pub use perspective::{Perspective, PerspectivePlanes, PerspectiveRamps};
 pub use perspective32::{Perspective32, Perspective32Ramps, Perspective32Slopes};
+pub use spans::{PerspectiveSpans, SpansSlopes};
 
 /// A kind of varying: `()`, [`Linear`], [`Perspective`], or a pair of them.
 pub trait Varying: Copy + Sized {
@@ -118,6 +122,7 @@ impl<A: Varying, B: Varying> Varying for (A, B) {
 
 impl<A: Varying, B: Varying> Slopes<(A, B)> for (A::Slopes, B::Slopes) {
     const CARRIES: bool = A::Slopes::CARRIES || B::Slopes::CARRIES;
+    const EXIST: bool = A::Slopes::EXIST && B::Slopes::EXIST;
 
     #[inline(always)]
     fn new(weights: &Weights, corners: [(A, B); 3]) -> Option<Self> {

@@ -25,6 +25,13 @@ use crate::slope::{Slope, Slopes, Weights};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Perspective32<const N: usize>(pub Perspective<N>);
 
+impl<const N: usize> From<Perspective<N>> for Perspective32<N> {
+    #[inline]
+    fn from(corner: Perspective<N>) -> Self {
+        Perspective32(corner)
+    }
+}
+
 /// The slopes of a [`Perspective32`].
 #[derive(Debug, Clone, Copy)]
 pub struct Perspective32Slopes<const N: usize> {
@@ -35,17 +42,17 @@ pub struct Perspective32Slopes<const N: usize> {
 /// The ramps of a [`Perspective32`].
 #[derive(Debug, Clone, Copy)]
 pub struct Perspective32Ramps<const N: usize> {
-    over_w: [Ramp<i32>; N],
-    inverse: Ramp<i32>,
+    pub(super) over_w: [Ramp<i32>; N],
+    pub(super) inverse: Ramp<i32>,
 }
 
 impl<const N: usize> Perspective32Ramps<N> {
     #[inline(always)]
-    fn values(&self) -> [i32; N] {
-        // 1/w in 2^-16, at most 1 and not 0; its reciprocal in 2^-16, 1 or more. The product is in 2^-16 of the units of
-        // value/w, which are the values'.
+    pub(super) fn values(&self) -> [i32; N] {
+        // 1/w in 2^-16, at most 1 and not 0; its reciprocal in 2^-16, 1 or more, and so that it is a signed word: a product of
+        // two of these is one instruction. The product is in 2^-16 of the units of value/w, which are the values'.
         let inverse = NonZeroU32::MIN | (self.inverse.value >> 14) as u32;
-        let reciprocal = u32::MAX / inverse;
+        let reciprocal = (u32::MAX / inverse) as i32;
         each(&self.over_w, |ramp| {
             ((ramp.value as i64 * reciprocal as i64) >> 16) as i32
         })
