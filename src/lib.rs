@@ -58,6 +58,9 @@
 //! [none](varying), [linear](varying::Linear), [in perspective](varying::Perspective) or pairs of these, the fragment
 //! program, the pixel, the word size. What is not chosen is not compiled in.
 //!
+//! How exact it is is chosen by type as well: [`quality`] has three tiers, each a set of dials, and `docs/dials.md` says how far
+//! off each of them is. For displays of few levels there is [`dither`].
+//!
 //! # Numbers
 //!
 //! | quantity | format | error |
@@ -70,6 +73,7 @@
 //! | linear varyings | the user's units in an `i32` ([`gradient`]) | a unit per pixel along a span, never outside the corners' range |
 //! | colours for RGB565 | two channels a word ([`varying::Color565`]) | within a level of the exact value |
 //! | varyings in perspective | as linear ones, divided per pixel | see [`varying::Perspective`] |
+//! | the same in words of 32 bits | divided [per pixel](varying::Perspective32) or [per subspan](varying::PerspectiveSpans) | stated there, or chosen |
 //! | colours with alpha | 2^-28, straight, ±8 times full ([`blend::Rgba`]) | half a unit + 2^-29 of the two colours' distance |
 //! | sRGB | 2^-16 level ([`srgb`]) | 0.0002 level |
 //! | light | 2^-28 of full at [points](light::world), 2^-16 in [HW2](mod@light) | stated there, far below a level of 255 |
@@ -81,10 +85,12 @@
 #![forbid(unsafe_code)]
 
 pub mod bands;
+mod barycentric;
 pub mod blend;
 pub mod clip;
 pub mod depth;
 pub mod disc;
+pub mod dither;
 pub mod draw;
 pub mod edge;
 #[cfg(feature = "embedded-graphics")]
@@ -99,9 +105,11 @@ pub mod mesh;
 pub mod num;
 pub mod patch;
 pub mod pipeline;
+pub mod quality;
 pub mod screen;
 pub mod segment;
 pub mod slope;
+mod small;
 pub mod span;
 pub mod square;
 pub mod srgb;

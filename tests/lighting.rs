@@ -2,7 +2,7 @@
 
 use fixel::error::Error;
 use fixel::light::{Finish, Light, Lights, Matte, Shiny};
-use fixel::num::{Block, Word};
+use fixel::num::{Block, OneStep, Precision, Table, TwoSteps, Word};
 use proptest::prelude::*;
 
 const FULL: i32 = 1 << 16;
@@ -29,7 +29,11 @@ struct Case {
 
 impl Case {
     fn core(&self) -> [i32; 3] {
-        let mut lights = Lights::<i32, 100, 100>::default();
+        self.core_at::<TwoSteps>()
+    }
+
+    fn core_at<P: Precision>(&self) -> [i32; 3] {
+        let mut lights = Lights::<i32, 100, 100, P>::default();
         for &(place, color) in &self.lights {
             let light = match place {
                 Place::Sun(towards) => Light::sun(towards, color).unwrap(),
@@ -104,6 +108,56 @@ impl Case {
             }
         }
         stated
+    }
+
+    /// What `src/light/mod.rs` states for the precisions below the exact one.
+    fn stated_at<P: Precision>(&self) -> Vector {
+        let (n, p) = (unit(self.normal.map(f64::from)), self.position.map(f64::from));
+        let unit_30 = 1.0 / (1 << 30) as f64;
+        let [of_unit, of_dot, of_power] = [P::UNIT_ERROR, P::DOT_ERROR, P::POWER_ERROR].map(|e| e as f64 * unit_30);
+        let exponent = self.shininess as f64 / 65536.0;
+        let of_power = of_power * (exponent / 256.0).max(1.0);
+        let share = 1.0 / (1 << 15) as f64;
+        let brightness: f64 = self
+            .directions()
+            .map(|(_, light)| light.into_iter().fold(0.0, |a, b| b.abs().max(a)))
+            .sum();
+        // The least power of two that takes all lights together to 15 bits.
+        let step = (brightness.max(1.0).log2().floor() - 14.0).max(0.0).exp2();
+        let steps = (self.lights.len() as f64 + 1.0) * step;
+        let mut stated = [0, 1, 2].map(|i| {
+            let highlight = if self.shininess == 0 { 0.0 } else { steps + step };
+            steps * (self.surface[i] as f64 / FULL as f64).abs() + step + highlight
+        });
+        for (l, light) in self.directions() {
+            let c = dot(n, l);
+            let between = minus(l, unit(p));
+            let length = dot(between, between).sqrt();
+            let cosine_error = 3.0 * of_unit + of_dot;
+            let k_error = ((3.0 + 4.0 / length) * of_unit + of_dot).min(2.0);
+            let k = dot(n, unit(between));
+            let power = |k: f64| k.clamp(0.0, 1.0).powf(exponent);
+            let highlight_error = match self.shininess {
+                0 => 0.0,
+                _ if c.abs() <= cosine_error => power(k + k_error) + of_power + share,
+                _ if c < 0.0 => 0.0,
+                _ => (power(k + k_error) - power(k)).max(power(k) - power(k - k_error)) + of_power + share,
+            };
+            for i in 0..3 {
+                let diffuse_error = if c < -cosine_error { 0.0 } else { cosine_error + share };
+                let surface = (self.surface[i] as f64 / FULL as f64).abs();
+                stated[i] += light[i].abs() * (diffuse_error * surface + highlight_error);
+            }
+        }
+        stated
+    }
+
+    fn share_at<P: Precision>(&self) -> f64 {
+        let (core, exact, stated) = (self.core_at::<P>(), self.exact(), self.stated_at::<P>());
+        [0, 1, 2]
+            .map(|i| (core[i] as f64 - exact[i]).abs() / stated[i])
+            .into_iter()
+            .fold(0.0, f64::max)
     }
 
     /// The largest share of the stated error that the core makes use of; 1 is the limit.
@@ -221,6 +275,18 @@ proptest! {
         prop_assert!(case.share() <= 1.0, "{:?} of {:?}", case.errors(), case.stated());
     }
 
+    /// Below the exact precision.
+    #[test]
+    fn cheaper_lights_are_as_near_as_stated(
+        case in prop_oneof![case(3 * FULL), case(16_384 * FULL)],
+        off in prop::array::uniform3(-1 << 26..=1i32 << 26),
+    ) {
+        for case in [case.clone(), mirrored(case, off)] {
+            prop_assert!(case.share_at::<OneStep>() <= 1.0, "{} of one step's error", case.share_at::<OneStep>());
+            prop_assert!(case.share_at::<Table>() <= 1.0, "{} of the table's error", case.share_at::<Table>());
+        }
+    }
+
     /// A power of two in the normal's length changes nothing, any other factor what rounding does.
     #[test]
     fn the_length_of_a_normal_does_not_matter(
@@ -244,7 +310,7 @@ proptest! {
         exponent in prop_oneof![-100..100, any::<i32>()],
     ) {
         let mut scene = Lights::<i64, 4, 4>::default();
-        for (place, power, color) in lights {
+        for &(place, power, color) in &lights {
             let bulb = Light::Bulb { position: Block::from_wide(place.map(i128::from), power), color };
             scene.add(bulb).unwrap();
             let sun = Light::Sun { direction: place.map(|c| (c >> 33) as i32), color };
@@ -254,6 +320,8 @@ proptest! {
         lit.shade(normal, position, surface, &Matte);
         lit.shade(normal, position, surface, &Shiny(shininess));
         lit.shade(normal, position, surface, &finish);
+        cheaper::<Table>(&lights, exponent, [normal, position, surface], &finish, &Shiny(shininess));
+        cheaper::<OneStep>(&lights, exponent, [normal, position, surface], &finish, &Shiny(shininess));
     }
 
     /// To the bit.
@@ -263,6 +331,27 @@ proptest! {
         turned.lights.rotate_left(by.min(case.lights.len()));
         prop_assert_eq!(case.core(), turned.core());
     }
+}
+
+fn cheaper<P: Precision>(
+    lights: &[([i64; 3], i32, [i32; 3])],
+    exponent: i32,
+    [normal, position, surface]: [[i32; 3]; 3],
+    careless: &Careless,
+    shiny: &Shiny,
+) {
+    let mut scene = Lights::<i64, 4, 4, P>::default();
+    for &(place, power, color) in lights {
+        let position = Block::from_wide(place.map(i128::from), power);
+        scene.add(Light::Bulb { position, color }).unwrap();
+        let direction = place.map(|c| c as i32);
+        scene.add(Light::Sun { direction, color }).unwrap();
+    }
+    let lit = scene.at_scale(exponent);
+    lit.shade(normal, position, surface, &Matte);
+    lit.shade(normal, position, surface, careless);
+    lit.shade(normal, position, surface, shiny);
+    lit.shade_wide(normal, position, surface, shiny);
 }
 
 /// Splitmix64: the same cases every time.
@@ -353,6 +442,32 @@ fn the_stated_error_is_tight() {
         worst[0], worst[1]
     );
     assert!(worst.iter().all(|&w| w > 0.25 && w <= 1.0), "{worst:?}");
+}
+
+/// At most four times the largest share, as [`the_stated_error_is_tight`] has it.
+#[test]
+fn the_stated_error_of_cheaper_lights_is_tight() {
+    let mut random = Random(4);
+    let mut worst = [[0.0f64; 2]; 2];
+    for (shininess, worst) in [0, 240].into_iter().zip(&mut worst) {
+        for _ in 0..300_000 {
+            let mut case = random.case(1, shininess);
+            case.lights[0].1 = [3 * FULL; 3];
+            if random.within(1) == 0 {
+                case.lights[0].0 = Place::Bulb(random.vector(1 << 30));
+            }
+            if shininess > 0 {
+                case = mirrored(case, random.vector(1 << 26));
+            }
+            worst[0] = worst[0].max(case.share_at::<OneStep>());
+            worst[1] = worst[1].max(case.share_at::<Table>());
+        }
+    }
+    println!(
+        "share of the stated error, one step and table: diffuse {:.2?}, with highlight {:.2?}",
+        worst[0], worst[1]
+    );
+    assert!(worst.as_flattened().iter().all(|&w| w > 0.25 && w <= 1.0), "{worst:?}");
 }
 
 /// From almost along the surface: c is a few units on either side of 0.

@@ -18,7 +18,7 @@ use fixel::screen::{Center, Corner, FineDepth, Position, Shape, SubPx};
 use fixel::span::Corners;
 use fixel::square::Square;
 use fixel::target::{Buffer, Target};
-use fixel::varying::{Linear, Perspective, Varying};
+use fixel::varying::{Linear, Linear32, Perspective, Perspective32, PerspectiveSpans, Varying};
 use fixel::view::{Carried, Cull, Vertex, View};
 use fixel::viewport::Viewport;
 use fixel::window::Window;
@@ -227,6 +227,9 @@ fn draw_view<T: Word, W: Word>(parts: &Parts<T>, window: Window) {
     };
     draw_kind::<T, W, Linear<2>>(&view, parts, window, |carried| carried);
     draw_kind::<T, W, Perspective<2>>(&view, parts, window, |carried| carried);
+    draw_kind::<T, W, Linear32<2>>(&view, parts, window, |carried| carried);
+    draw_kind::<T, W, Perspective32<2>>(&view, parts, window, |carried| carried);
+    draw_kind::<T, W, PerspectiveSpans<2, 128>>(&view, parts, window, |carried| carried);
     draw_kind::<T, W, (Linear<2>, Perspective<2>)>(&view, parts, window, |carried| (carried, carried));
 }
 
@@ -485,6 +488,12 @@ proptest! {
         draw_corners(corners(positions, depths, honest), window, depth_window, length);
         let nonsense = |i: usize| Perspective { over_w: over_w[i], inverse: inverses[i], values: values[i] };
         draw_corners(corners(positions, depths, nonsense), window, depth_window, length);
+        draw_corners(corners(positions, depths, |i| Linear32(values[i])), window, depth_window, length);
+        for of in [&honest as &dyn Fn(usize) -> Perspective<2>, &nonsense] {
+            draw_corners(corners(positions, depths, |i| Perspective32(of(i))), window, depth_window, length);
+            let spans = |i: usize| PerspectiveSpans::<2, 128>(of(i));
+            draw_corners(corners(positions, depths, spans), window, depth_window, length);
+        }
     }
 
     /// Whatever the indices say: an error, or triangles of vertices that there are.

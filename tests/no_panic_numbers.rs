@@ -6,7 +6,9 @@ use fixel::clip::{DepthRange, Planes};
 use fixel::edge::Edge;
 use fixel::matrix::{Directions, Matrix};
 use fixel::mesh::Normalized;
-use fixel::num::{Angle, Block, Scaled, SineTable, Trigonometry, Word, reciprocal};
+use fixel::num::{
+    Angle, Block, OneStep, Precision, Scaled, ShortSine, SineTable, Table, Trigonometry, TwoSteps, Word, reciprocal,
+};
 use fixel::span::scan;
 use fixel::srgb::{decode, decode_wide, encode};
 use fixel::supersample::Level;
@@ -178,6 +180,22 @@ fn spans<W: Word>(corners: [(i32, i32); 3], window: Window) {
     }
 }
 
+fn at_precision<P: Precision>(
+    word: u32,
+    [vector, other]: [[i32; 3]; 2],
+    long: [i64; 3],
+    (base, exponent): (i32, u32),
+) -> Result<(), TestCaseError> {
+    prop_assert!((1 << 31..=1 << 32).contains(&P::reciprocal(word)));
+    prop_assert!(P::reciprocal_square_root(word) >= 1 << 31);
+    prop_assert!((0..=1 << 30).contains(&P::power(base, exponent)));
+    for unit in [P::unit(vector), P::unit_wide(long)].into_iter().flatten() {
+        prop_assert!(unit.iter().all(|c| c.unsigned_abs() <= (1 << 30) + P::UNIT_ERROR));
+        P::dot(unit, other.map(|c| c >> 1));
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
@@ -228,6 +246,17 @@ proptest! {
     fn any_angle_and_divisor(degrees in int(), turns in any::<u64>(), divisor in any::<u32>()) {
         let _ = (Angle::from_degrees(degrees), Angle::from_radians(turns as i64), reciprocal(divisor));
         let (_, _) = (SineTable::sin_cos::<i32>(Angle::from_turns(turns)), SineTable::sin_cos::<i64>(Angle::from_turns(turns)));
+        let (_, _) = (ShortSine::sin_cos::<i32>(Angle::from_turns(turns)), ShortSine::sin_cos::<i64>(Angle::from_turns(turns)));
+    }
+
+    #[test]
+    fn any_number_at_any_precision(
+        word in any::<u32>(), vector in prop::array::uniform3(int()), other in prop::array::uniform3(int()),
+        long in prop::array::uniform3(long()), base in int(), exponent in prop_oneof![any::<u32>(), 0..1u32 << 20],
+    ) {
+        at_precision::<Table>(word, [vector, other], long, (base, exponent))?;
+        at_precision::<OneStep>(word, [vector, other], long, (base, exponent))?;
+        at_precision::<TwoSteps>(word, [vector, other], long, (base, exponent))?;
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use fixel::error::Error;
 use fixel::light::Matte;
 use fixel::light::world::{FULL, Glossy, Material, PointLight, PointLights};
-use fixel::num::{Block, Word};
+use fixel::num::{Block, OneStep, Precision, Table, TwoSteps, Word};
 use proptest::prelude::*;
 
 type Vector = [f64; 3];
@@ -27,7 +27,7 @@ struct Case {
 }
 
 impl Case {
-    fn lights<T: Word>(&self) -> PointLights<T, 100> {
+    fn lights<T: Word, P: Precision>(&self) -> PointLights<T, 100, P> {
         let mut lights = PointLights::new(self.place(self.eye));
         for &(position, color) in &self.lights {
             let light = PointLight {
@@ -65,47 +65,86 @@ impl Case {
 
     /// The three ways to get the colour before the last min(1, ·): by blocks of either word, and by integers.
     fn wide(&self) -> [[i64; 3]; 3] {
-        fn blocks<T: Word>(case: &Case) -> [i64; 3] {
-            let (lights, at) = (case.lights::<T>(), case.place(case.position));
+        self.wide_at::<TwoSteps>()
+    }
+
+    fn wide_at<P: Precision>(&self) -> [[i64; 3]; 3] {
+        fn blocks<T: Word, P: Precision>(case: &Case) -> [i64; 3] {
+            let (lights, at) = (case.lights::<T, P>(), case.place(case.position));
             case.by_material(
                 |m| lights.shade_wide(case.normal, at, m),
                 |m| lights.shade_wide(case.normal, at, m),
             )
         }
-        let lit = self.lights::<i32>().at_scale(self.exponent);
+        let lit = self.lights::<i32, P>().at_scale(self.exponent);
         let (n, p) = (self.normal, self.position);
         let integers = self.by_material(|m| lit.shade_wide(n, p, m), |m| lit.shade_wide(n, p, m));
-        [blocks::<i32>(self), blocks::<i64>(self), integers]
+        [blocks::<i32, P>(self), blocks::<i64, P>(self), integers]
     }
 
     fn clamped(&self) -> [i32; 3] {
-        let (lit, n, p) = (self.lights::<i32>().at_scale(self.exponent), self.normal, self.position);
+        let lit = self.lights::<i32, TwoSteps>().at_scale(self.exponent);
+        let (n, p) = (self.normal, self.position);
         self.by_material(|m| lit.shade(n, p, m), |m| lit.shade(n, p, m))
     }
 
     /// The rule before the last min(1, ·), and how far from it the core may be, both in full.
     fn exact(&self) -> (Vector, Vector) {
+        self.exact_for(
+            |length| [6.0, 5.0 + 6.0 / length, 3.0].map(|e| e * UNIT),
+            UNIT / 2.0,
+            UNIT / 2.0,
+            full(1),
+        )
+    }
+
+    /// As `src/light/world.rs` states for the precisions below the exact one.
+    fn exact_at<P: Precision>(&self) -> (Vector, Vector) {
+        let [of_unit, of_dot, of_power] = [P::UNIT_ERROR, P::DOT_ERROR, P::POWER_ERROR].map(|e| e as f64 * UNIT);
+        let of_power = of_power * (self.shininess.unwrap_or(0) as f64 / 65536.0 / 256.0).max(1.0);
+        let share = 1.0 / (1 << 15) as f64;
+        let most = |color: [i32; 3]| color.iter().fold(0, |most, c| c.abs().max(most)) as f64 / 65536.0;
+        // A unit of 2^-15 for each light is what the core rounds its sum up by.
+        let brightness: f64 = self.lights.iter().map(|&(_, color)| most(color) + share).sum();
+        let step = (brightness.max(share).log2().floor() + 1.0).max(0.0).exp2() * share;
+        self.exact_for(
+            |length| {
+                [
+                    3.0 * of_unit + of_dot + share,
+                    (3.0 + 4.0 / length) * of_unit + of_dot,
+                    of_power + share,
+                ]
+            },
+            step,
+            2.0 * step,
+            full(1) + step / 4096.0,
+        )
+    }
+
+    /// With the errors of a cosine, of n·h for a |unit(e − v) + unit(L − v)|, and of a power; of each light; of the sum; and of
+    /// the result.
+    fn exact_for(&self, errors_at: impl Fn(f64) -> [f64; 3], each: f64, sum: f64, result: f64) -> (Vector, Vector) {
         let v = self.position.map(f64::from);
         let n = unit(self.normal.map(f64::from));
         let towards = |p: [i32; 3]| unit(minus(p.map(f64::from), v));
         let shininess = self.shininess.unwrap_or(0) as f64 / 65536.0;
         let power = |k: f64| k.clamp(0.0, 1.0).powf(shininess);
-        let (mut diffuse, mut specular, mut errors) = ([0.0; 3], [0.0; 3], [[0.0; 3]; 2]);
+        let (mut diffuse, mut specular, mut errors) = ([0.0; 3], [0.0; 3], [[sum - each; 3]; 2]);
         for &(light, color) in &self.lights {
             let l = towards(light);
             let between = plus(towards(self.eye), l);
             let k = dot(n, unit(between)).max(0.0);
-            let k_error = ((5.0 + 6.0 / length(between)) * UNIT).min(1.0);
-            let highlight_error = (power(k + k_error) - power(k)).max(power(k) - power(k - k_error)) + 3.0 * UNIT;
+            let [cosine_error, k_error, power_error] = errors_at(length(between));
+            let k_error = k_error.min(1.0);
+            let highlight_error = (power(k + k_error) - power(k)).max(power(k) - power(k - k_error)) + power_error;
             for i in 0..3 {
                 let c = color[i] as f64 / 65536.0;
                 diffuse[i] += (c * dot(n, l)).max(0.0);
                 specular[i] += (c * power(k)).max(0.0);
-                errors[0][i] += c.abs() * 6.0 * UNIT + UNIT / 2.0;
-                errors[1][i] += c.abs() * highlight_error + UNIT / 2.0;
+                errors[0][i] += c.abs() * cosine_error + each;
+                errors[1][i] += c.abs() * highlight_error + each;
             }
         }
-        let full = |v: i32| v as f64 / FULL as f64;
         let s = if self.shininess.is_some() {
             self.specular
         } else {
@@ -114,15 +153,22 @@ impl Case {
         let color = [0, 1, 2]
             .map(|i| full(self.ambient[i]) + diffuse[i].min(1.0) * full(self.diffuse[i]) + specular[i] * full(s[i]));
         let stated =
-            [0, 1, 2].map(|i| errors[0][i] * full(self.diffuse[i]).abs() + errors[1][i] * full(s[i]).abs() + full(1));
+            [0, 1, 2].map(|i| errors[0][i] * full(self.diffuse[i]).abs() + errors[1][i] * full(s[i]).abs() + result);
         (color, stated)
     }
 
     /// The largest share of the stated error that the core makes use of; 1 is the limit.
     fn share(&self) -> f64 {
-        let (exact, stated) = self.exact();
+        Self::largest_share(self.wide(), self.exact())
+    }
+
+    fn share_at<P: Precision>(&self) -> f64 {
+        Self::largest_share(self.wide_at::<P>(), self.exact_at::<P>())
+    }
+
+    fn largest_share(wide: [[i64; 3]; 3], (exact, stated): (Vector, Vector)) -> f64 {
         let mut worst = 0.0f64;
-        for core in self.wide() {
+        for core in wide {
             for i in 0..3 {
                 let off = (core[i] as f64 / FULL as f64 - exact[i]).abs();
                 worst = worst.max(off / stated[i]);
@@ -130,6 +176,10 @@ impl Case {
         }
         worst
     }
+}
+
+fn full(v: i32) -> f64 {
+    v as f64 / FULL as f64
 }
 
 fn dot(a: Vector, b: Vector) -> f64 {
@@ -264,6 +314,15 @@ proptest! {
         prop_assert!(case.share() <= 1.0, "{:?} not near {:?}", case.wide(), case.exact());
     }
 
+    /// Below the exact precision.
+    #[test]
+    fn cheaper_lights_are_as_near_as_stated(case in case(5), off in prop::array::uniform3(-1 << 26..=1i32 << 26)) {
+        for case in [case.clone(), mirrored(case, off)] {
+            prop_assert!(case.share_at::<OneStep>() <= 1.0, "{} of one step's error", case.share_at::<OneStep>());
+            prop_assert!(case.share_at::<Table>() <= 1.0, "{} of the table's error", case.share_at::<Table>());
+        }
+    }
+
     /// Light from exactly or almost behind, where the half vector is all cancellation.
     #[test]
     fn opposite_lights_are_as_near_as_stated(
@@ -313,9 +372,12 @@ proptest! {
     ) {
         let block = |v: [i64; 3], e| Block::<i64, 3>::from_wide(v.map(i128::from), e);
         let mut scene = PointLights::<i64, 4>::new(block(eye, scale));
+        let mut cheaper = PointLights::<i64, 4, Table>::new(block(eye, scale));
         for (place, power, color, brightness) in lights {
             let color = Block::from_wide(color.map(i64::from), brightness);
-            scene.add(PointLight { position: block(place, power), color }).unwrap();
+            let light = PointLight { position: block(place, power), color };
+            scene.add(light).unwrap();
+            cheaper.add(light).unwrap();
         }
         let matte = Material { ambient, diffuse, specular: Matte };
         let glossy = Material { ambient, diffuse, specular: Glossy { color, shininess } };
@@ -324,6 +386,31 @@ proptest! {
         scene.shade(normal, at, &glossy);
         lit.shade(normal, position, &matte);
         lit.shade(normal, position, &glossy);
+        cheaper.shade(normal, at, &glossy);
+        cheaper.at_scale(exponent).shade(normal, position, &glossy);
+        cheaper.at_scale(exponent).shade_wide(normal, position, &matte);
+    }
+}
+
+/// At most four times what happens, for the precisions below the exact one.
+#[test]
+fn the_stated_error_of_cheaper_lights_is_tight() {
+    let mut random = Random(5);
+    for shininess in [None, Some(240)] {
+        let mut worst = [0.0f64; 2];
+        for _ in 0..200_000 {
+            let mut case = random.case(1, shininess);
+            if shininess.is_none() {
+                (case.lights[0].1, case.diffuse) = ([(1 << 16) - 1; 3], [FULL; 3]);
+            } else {
+                (case.lights[0].1, case.diffuse) = ([3 << 16; 3], [0; 3]);
+                case = mirrored(case, random.vector(1 << 26));
+            }
+            worst[0] = worst[0].max(case.share_at::<OneStep>());
+            worst[1] = worst[1].max(case.share_at::<Table>());
+        }
+        println!("{shininess:?}: {worst:.2?} of the stated error, one step and table");
+        assert!(worst.iter().all(|&w| w > 0.25 && w <= 1.0), "{worst:?}");
     }
 }
 

@@ -3,7 +3,7 @@
 mod exact;
 
 use exact::Exact;
-use fixel::num::{Angle, SineTable, Trigonometry, Word};
+use fixel::num::{Angle, ShortSine, SineTable, Trigonometry, Word};
 use proptest::prelude::*;
 
 /// The largest error of [`SineTable`] in units of 2^-BITS: 2^-28 with 32-bit words, 2^-59 with 64-bit ones, as it states.
@@ -149,6 +149,25 @@ fn the_table_is_as_near_as_it_says() {
             stated <= LOOSEST * worst,
             "{worst} units are far below the stated {stated}"
         );
+    }
+}
+
+#[test]
+fn the_short_table_is_as_near_as_it_says() {
+    /// Whatever the word.
+    const SHORT_ERROR: f64 = 1e-4;
+    let pi = pi();
+    let narrow = worst::<ShortSine, i32>(&pi) / 2f64.powi(30);
+    let wide = worst::<ShortSine, i64>(&pi) / 2f64.powi(62);
+    println!("worst {narrow} and {wide}");
+    assert!(narrow.max(wide) <= SHORT_ERROR && SHORT_ERROR <= LOOSEST * narrow);
+    // A million more, for which float64 is exact enough.
+    for i in 0..1_000_000u64 {
+        let turns = i.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let (sin, cos) = (turns as f64 / 2f64.powi(64) * std::f64::consts::TAU).sin_cos();
+        let (s, c) = ShortSine::sin_cos::<i32>(Angle::from_turns(turns));
+        let error = |table: i32, exact: f64| (f64::from(table) / 2f64.powi(30) - exact).abs();
+        assert!(error(s, sin).max(error(c, cos)) <= SHORT_ERROR, "{turns}");
     }
 }
 

@@ -20,6 +20,12 @@
 //! of the result (`tests/lighting.rs`). A hundred lights of colours −2…3 with a = 240 stay within 1/100 of a level of
 //! 255. Where c or |l + unit(−p)| is 0 but for its error, a highlight is either there or not: it begins with a jump.
 //!
+//! **Precision** is the lights' last type parameter, [`TwoSteps`] unless another is named. For [`OneStep`](crate::num::OneStep)
+//! and [`Table`](crate::num::Table), with the constants of [`Precision`], the error of c is 3·`UNIT_ERROR` + `DOT_ERROR`, of k
+//! (3 + 4/|l + unit(−p)|)·`UNIT_ERROR` + `DOT_ERROR`, of k^a what that makes of it and `POWER_ERROR`; each and 2^-15 times the
+//! light. Sums have 15 bits below the largest channels of all lights together, brought up to a power of two: each light may
+//! be off by one such step, the sum by another, times the surface, and the result by one.
+//!
 //! **Cost**: without a [`Shiny`] surface there is no code for highlights, with room for 0 bulbs none for bulbs.
 //!
 //! ```
@@ -42,15 +48,19 @@
 //! # Ok::<(), fixel::error::Error>(())
 //! ```
 
+mod sums;
 mod sunlight;
 pub mod world;
 
 pub use sunlight::Sunlight;
 
+use core::marker::PhantomData;
+
 use heapless::Vec;
 
+use self::sums::Sums;
 use crate::error::Error;
-use crate::num::{Block, Word, dot, power, unit, unit_wide};
+use crate::num::{Block, Precision, TwoSteps, Word, power, unit};
 
 /// A light in eye space. Colours in units of 2^-16 of full, any sign.
 ///
@@ -93,7 +103,7 @@ impl<T> Light<T> {
 /// Suns or bulbs at most; see [`Sum`].
 const MOST: usize = 1 << 15;
 
-/// The lights of a scene: at most `SUNS` and `BULBS` of them, at most 32768 of either kind.
+/// The lights of a scene: at most `SUNS` and `BULBS` of them, at most 32768 of either kind, at the precision `P`.
 ///
 /// ```
 /// use fixel::{error::Error, light::{Light, Lights}};
@@ -104,9 +114,10 @@ const MOST: usize = 1 << 15;
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Lights<T, const SUNS: usize, const BULBS: usize> {
+pub struct Lights<T, const SUNS: usize, const BULBS: usize, P = TwoSteps> {
     suns: Vec<Lamp<i32>, SUNS>,
     bulbs: Vec<(Block<T, 3>, [i32; 3]), BULBS>,
+    precision: PhantomData<P>,
 }
 
 /// A light as a fragment sees it: a sun's direction, or a bulb's position at the fragments' scale.
@@ -116,17 +127,18 @@ struct Lamp<P> {
     color: [i32; 3],
 }
 
-impl<T, const SUNS: usize, const BULBS: usize> Default for Lights<T, SUNS, BULBS> {
+impl<T, const SUNS: usize, const BULBS: usize, P> Default for Lights<T, SUNS, BULBS, P> {
     fn default() -> Self {
         const { assert!(SUNS <= MOST && BULBS <= MOST) };
         Lights {
             suns: Vec::new(),
             bulbs: Vec::new(),
+            precision: PhantomData,
         }
     }
 }
 
-impl<T: Word, const SUNS: usize, const BULBS: usize> Lights<T, SUNS, BULBS> {
+impl<T: Word, const SUNS: usize, const BULBS: usize, P: Precision> Lights<T, SUNS, BULBS, P> {
     /// One light more.
     ///
     /// # Errors
@@ -154,7 +166,7 @@ impl<T: Word, const SUNS: usize, const BULBS: usize> Lights<T, SUNS, BULBS> {
     ///
     /// Bulbs are rounded to that unit, as fragments are: from d units away the direction is within 1/d. However far a
     /// bulb, no more is lost than 2^-29 of the direction.
-    pub fn at_scale(&self, exponent: i32) -> Lit<'_, BULBS> {
+    pub fn at_scale(&self, exponent: i32) -> Lit<'_, BULBS, P> {
         let mut bulbs = Vec::new();
         for &(position, color) in &self.bulbs {
             // As many as here have room there; `collect` would carry a panic along.
@@ -166,7 +178,18 @@ impl<T: Word, const SUNS: usize, const BULBS: usize> Lights<T, SUNS, BULBS> {
         Lit {
             suns: &self.suns,
             bulbs,
+            cut: if P::LONG { 0 } else { sums::cut(self.brightness()) },
+            precision: PhantomData,
         }
+    }
+
+    /// The largest channels of all colours together, in units of 2^-16 of full.
+    fn brightness(&self) -> u64 {
+        let colors = self.suns.iter().map(|sun| sun.color);
+        let colors = colors.chain(self.bulbs.iter().map(|&(_, color)| color));
+        colors.fold(0, |sum, color| {
+            sum + color.iter().fold(0, |most, c| c.unsigned_abs().max(most)) as u64
+        })
     }
 }
 
@@ -201,12 +224,15 @@ fn to_units<T: Word>(position: Block<T, 3>, exponent: i32) -> [i64; 3] {
 /// # Ok::<(), fixel::error::Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Lit<'a, const BULBS: usize> {
+pub struct Lit<'a, const BULBS: usize, P = TwoSteps> {
     suns: &'a [Lamp<i32>],
     bulbs: Vec<Lamp<i64>, BULBS>,
+    /// See [`Sums::add`].
+    cut: u32,
+    precision: PhantomData<P>,
 }
 
-impl<const BULBS: usize> Lit<'_, BULBS> {
+impl<const BULBS: usize, P: Precision> Lit<'_, BULBS, P> {
     /// The colour of one fragment, in units of 2^-16 of full, saturated at ±2^15 of full and otherwise not clamped.
     ///
     /// `normal`: any length; interpolated ones need not be normalised. 0 is dark. `position`: the fragment's in eye
@@ -214,8 +240,14 @@ impl<const BULBS: usize> Lit<'_, BULBS> {
     /// surface. `surface`: its colour without light, in units of 2^-16 of full.
     #[inline]
     pub fn shade<F: Finish>(&self, normal: [i32; 3], position: [i32; 3], surface: [i32; 3], finish: &F) -> [i32; 3] {
-        let color = self.shade_wide(normal, position, surface, finish);
-        color.map(|c| c.clamp(i32::MIN as i64, i32::MAX as i64) as i32)
+        let Some(sum) = self.sum(normal, position, finish) else {
+            return [0; 3];
+        };
+        if !P::LONG {
+            return sum.saturated_color(surface);
+        }
+        sum.color(surface)
+            .map(|c| c.clamp(i32::MIN as i64, i32::MAX as i64) as i32)
     }
 
     /// As [`shade`](Self::shade), but not clamped: below 2^63.1, where only more than 60000 lights of full range reach 2^63,
@@ -238,18 +270,24 @@ impl<const BULBS: usize> Lit<'_, BULBS> {
         surface: [i32; 3],
         finish: &F,
     ) -> [i64; 3] {
-        let Some(normal) = unit(normal) else {
-            return [0; 3];
-        };
-        let mut sum = Sum {
+        self.sum(normal, position, finish)
+            .map_or([0; 3], |sum| sum.color(surface))
+    }
+
+    /// What the lights add up to; `None` without a normal.
+    #[inline(always)]
+    fn sum<'f, F: Finish>(&self, normal: [i32; 3], position: [i32; 3], finish: &'f F) -> Option<Sum<'f, F, P>> {
+        let normal = P::unit(normal)?;
+        let mut sum = Sum::<F, P> {
             normal,
             finish,
             to_eye: [0; 3],
-            diffuse: [0; 3],
-            specular: [0; 3],
+            cut: self.cut,
+            diffuse: Sums::default(),
+            specular: Sums::default(),
         };
         if F::SHINES {
-            sum.to_eye = unit(position).unwrap_or_default().map(|c| -c);
+            sum.to_eye = P::unit(position).unwrap_or_default().map(|c| -c);
         }
         for sun in self.suns {
             sum.add(sun.place, sun.color);
@@ -257,55 +295,65 @@ impl<const BULBS: usize> Lit<'_, BULBS> {
         // Without room for bulbs the compiler drops what follows.
         if BULBS > 0 {
             for bulb in &self.bulbs {
-                if let Some(direction) = unit_wide(minus(bulb.place, position)) {
+                if let Some(direction) = P::unit_wide(minus(bulb.place, position)) {
                     sum.add(direction, bulb.color);
                 }
             }
         }
-        sum.color(surface)
+        Some(sum)
     }
 }
 
-/// What the lights so far add, in units of 2^-30 of full. A light adds less than 2^45.1, so that 2^16 of them stay
-/// below 2^61.1.
-struct Sum<'a, F> {
+/// What the lights so far add.
+struct Sum<'a, F, P> {
     normal: [i32; 3],
     finish: &'a F,
     to_eye: [i32; 3],
+    cut: u32,
     /// Σ c · light: the surface's colour is the same for all.
-    diffuse: [i64; 3],
-    specular: [i64; 3],
+    diffuse: Sums<P>,
+    specular: Sums<P>,
 }
 
-impl<F: Finish> Sum<'_, F> {
-    #[inline]
+impl<F: Finish, P: Precision> Sum<'_, F, P> {
+    #[inline(always)]
     fn add(&mut self, direction: [i32; 3], color: [i32; 3]) {
-        let cosine = dot(self.normal, direction);
+        let cosine = P::dot(self.normal, direction);
         if cosine <= 0 {
             return;
         }
-        accumulate(&mut self.diffuse, color, to_fraction(cosine));
+        self.diffuse.add(color, cosine, self.cut);
         if F::SHINES {
-            let half = unit(plus(direction, self.to_eye)).unwrap_or_default();
-            let strength = self.finish.strength(to_fraction(dot(self.normal, half)).max(0));
-            accumulate(&mut self.specular, color, strength);
+            let half = P::unit(plus(direction, self.to_eye)).unwrap_or_default();
+            let strength = self.finish.strength_at::<P>(P::dot(self.normal, half).max(0));
+            self.specular.add(color, strength, self.cut);
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn color(&self, surface: [i32; 3]) -> [i64; 3] {
-        let mut specular = self.specular.into_iter();
-        let mut parts = self.diffuse.into_iter().zip(surface);
-        // Both iterators have 3 items.
-        core::array::from_fn(|_| {
-            let (diffuse, surface) = parts.next().unwrap_or_default();
-            let mut color = times(diffuse, surface);
-            if F::SHINES {
-                let specular = specular.next().unwrap_or_default();
-                color = color.saturating_add(times(specular, self.finish.highlight()));
+        let mut color = self.diffuse.on(surface, self.cut);
+        if F::SHINES {
+            let specular = self.specular.on([self.finish.highlight(); 3], self.cut);
+            for (color, specular) in color.iter_mut().zip(specular) {
+                *color = color.saturating_add(specular);
             }
-            color
-        })
+        }
+        color
+    }
+
+    /// Short sums as [`color`](Self::color), saturated.
+    #[inline(always)]
+    fn saturated_color(&self, surface: [i32; 3]) -> [i32; 3] {
+        let mut color = self.diffuse.parts_on(surface);
+        if F::SHINES {
+            let specular = self.specular.parts_on([self.finish.highlight(); 3]);
+            for (color, specular) in color.iter_mut().zip(specular) {
+                // Only where both are the largest there are is it a unit too much.
+                *color = color.saturating_add(specular);
+            }
+        }
+        color.map(|part| sums::uncut(part, self.cut))
     }
 }
 
@@ -330,6 +378,11 @@ pub trait Finish {
     const SHINES: bool;
     /// Share of the light, best 0…1, for n·h in 0…1, both in units of 2^-30. The cosine may pass 1 by a few units.
     fn strength(&self, cosine: i32) -> i32;
+    /// The same at the precision of the lights; [`strength`](Self::strength) itself unless there is a cheaper way.
+    #[inline(always)]
+    fn strength_at<P: Precision>(&self, cosine: i32) -> i32 {
+        self.strength(cosine)
+    }
     /// How bright the highlight is, in the unit of surface colours: full is 2^16 unless the caller has chosen another one.
     #[inline(always)]
     fn highlight(&self) -> i32 {
@@ -369,12 +422,10 @@ impl Finish for Shiny {
     fn strength(&self, cosine: i32) -> i32 {
         power(cosine, self.0)
     }
-}
-
-/// Units of 2^-60 to units of 2^-30, rounded.
-#[inline(always)]
-fn to_fraction(cosine: i64) -> i32 {
-    ((cosine + (1 << 29)) >> 30) as i32
+    #[inline]
+    fn strength_at<P: Precision>(&self, cosine: i32) -> i32 {
+        P::power(cosine, self.0)
+    }
 }
 
 /// sums += color · share, from units of 2^-46 to 2^-30.

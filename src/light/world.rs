@@ -24,6 +24,12 @@
 //! (`tests/phong.rs`; the directions' own errors are those of `docs/functions.md`). A hundred
 //! lights that add up to full on a matte surface are within 2^-25 of full.
 //!
+//! **Precision** is the lights' last type parameter, as in [`light`](mod@crate::light). For those below [`TwoSteps`], with the
+//! constants of [`Precision`], the error of n·l is 3·`UNIT_ERROR` + `DOT_ERROR`, of k (3 + 4/|unit(e − v) + unit(L − v)|)·
+//! `UNIT_ERROR` + `DOT_ERROR`, of k^x what that makes of it and `POWER_ERROR`; each and 2^-15 times the light. Each light may be
+//! off by a step of 2^-15 of all lights together, brought up to a power of two and at least full, the sum by
+//! another two.
+//!
 //! ```
 //! use fixel::light::world::{FULL, Glossy, Material, PointLight, PointLights};
 //! use fixel::num::Block;
@@ -45,11 +51,14 @@
 //! # Ok::<(), fixel::error::Error>(())
 //! ```
 
+use core::marker::PhantomData;
+
 use heapless::Vec;
 
-use super::{Finish, MOST, Matte, minus, plus, times, to_fraction, to_units};
+use super::sums::{light_15, part_16, share_15};
+use super::{Finish, MOST, Matte, minus, plus, times, to_units};
 use crate::error::Error;
-use crate::num::{Block, Word, dot, power, unit, unit_wide};
+use crate::num::{Block, Precision, TwoSteps, Word, power};
 
 /// Full in the units of materials and results, 2^-28.
 pub const FULL: i32 = 1 << 28;
@@ -69,7 +78,7 @@ pub struct PointLight<T> {
     pub color: Block<i32, 3>,
 }
 
-/// The eye and the lights of a scene, at most `N` of them, at most 32768.
+/// The eye and the lights of a scene, at most `N` of them, at most 32768, at the precision `P`.
 ///
 /// ```
 /// use fixel::{error::Error, light::world::{PointLight, PointLights}, num::Block};
@@ -80,9 +89,12 @@ pub struct PointLight<T> {
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct PointLights<T, const N: usize> {
+pub struct PointLights<T, const N: usize, P = TwoSteps> {
     eye: Block<T, 3>,
     lights: Vec<(Block<T, 3>, Color), N>,
+    /// Of all lights together, in units of 2^-15 of full.
+    brightness: u64,
+    precision: PhantomData<P>,
 }
 
 /// A light's colour: `mantissas` · 2^(30 − `shift`) in units of 2^-30 of full.
@@ -101,15 +113,29 @@ impl Color {
             shift: exponent.unsigned_abs().min(63),
         }
     }
+
+    /// No less than its largest channel, in units of 2^-15 of full; below 2^45.
+    fn brightness(&self) -> u64 {
+        let most = self.mantissas.iter().fold(0, |most, c| c.unsigned_abs().max(most));
+        (((most as u64) << 15) >> self.shift) + 1
+    }
 }
 
-impl<T: Word, const N: usize> PointLights<T, N> {
+/// Bits of fraction of the colours of lights that make `brightness` together, so that they fit 15 bits; at least −14, from where
+/// on sums saturate.
+fn fraction_bits(brightness: u64) -> i32 {
+    15 - (49 - brightness.leading_zeros() as i32).clamp(0, 29)
+}
+
+impl<T: Word, const N: usize, P: Precision> PointLights<T, N, P> {
     /// No light yet, seen from `eye`.
     pub fn new(eye: Block<T, 3>) -> Self {
         const { assert!(N <= MOST) };
         PointLights {
             eye,
             lights: Vec::new(),
+            brightness: 0,
+            precision: PhantomData,
         }
     }
 
@@ -119,8 +145,11 @@ impl<T: Word, const N: usize> PointLights<T, N> {
     /// [`Error::TooManyLights`] when there is no room for another.
     pub fn add(&mut self, light: PointLight<T>) -> Result<(), Error> {
         let PointLight { position, color } = light;
-        let added = self.lights.push((position, Color::new(color)));
-        added.map_err(|_| Error::TooManyLights)
+        let color = Color::new(color);
+        let added = self.lights.push((position, color));
+        added.map_err(|_| Error::TooManyLights)?;
+        self.brightness += color.brightness();
+        Ok(())
     }
 
     /// The colour at a point in units of 2^-28 of full, at most [`FULL`]: for vertices and faces.
@@ -142,8 +171,9 @@ impl<T: Word, const N: usize> PointLights<T, N> {
     /// assert_eq!(lights.shade_wide([0, 0, 1], Block::ZERO, &glowing), [2 << 28, 1 << 28, 0]);
     /// ```
     pub fn shade_wide<S: Specular>(&self, normal: [i32; 3], position: Block<T, 3>, material: &Material<S>) -> [i64; 3] {
-        let direction = |to: Block<T, 3>| unit_wide(to.minus(position).mantissas().map(T::to_i64)).unwrap_or_default();
-        let mut sum = Sum::new(normal, material);
+        let direction =
+            |to: Block<T, 3>| P::unit_wide(to.minus(position).mantissas().map(T::to_i64)).unwrap_or_default();
+        let mut sum = Sum::<S, P>::new(normal, material, fraction_bits(self.brightness));
         if S::SHINES {
             sum.to_eye = direction(self.eye);
         }
@@ -154,7 +184,7 @@ impl<T: Word, const N: usize> PointLights<T, N> {
     }
 
     /// The lights for fragments whose positions are in units of 2^`exponent`: once per draw.
-    pub fn at_scale(&self, exponent: i32) -> PointLit<N> {
+    pub fn at_scale(&self, exponent: i32) -> PointLit<N, P> {
         let mut lamps = Vec::new();
         for (light, color) in &self.lights {
             // As many as here have room there.
@@ -163,6 +193,8 @@ impl<T: Word, const N: usize> PointLights<T, N> {
         PointLit {
             eye: to_units(self.eye, exponent),
             lamps,
+            fraction_bits: fraction_bits(self.brightness),
+            precision: PhantomData,
         }
     }
 }
@@ -181,12 +213,14 @@ impl<T: Word, const N: usize> PointLights<T, N> {
 /// # Ok::<(), fixel::error::Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct PointLit<const N: usize> {
+pub struct PointLit<const N: usize, P = TwoSteps> {
     eye: [i64; 3],
     lamps: Vec<([i64; 3], Color), N>,
+    fraction_bits: i32,
+    precision: PhantomData<P>,
 }
 
-impl<const N: usize> PointLit<N> {
+impl<const N: usize, P: Precision> PointLit<N, P> {
     /// The colour of one fragment in units of 2^-28 of full, at most [`FULL`].
     ///
     /// `normal`: as interpolated, any length. `position`: in the units given to [`at_scale`](PointLights::at_scale).
@@ -198,8 +232,8 @@ impl<const N: usize> PointLit<N> {
     /// As [`shade`](Self::shade), but before the last min(1, ·): at most 2^34 of full.
     #[inline]
     pub fn shade_wide<S: Specular>(&self, normal: [i32; 3], position: [i32; 3], material: &Material<S>) -> [i64; 3] {
-        let direction = |to: [i64; 3]| unit_wide(minus(to, position)).unwrap_or_default();
-        let mut sum = Sum::new(normal, material);
+        let direction = |to: [i64; 3]| P::unit_wide(minus(to, position)).unwrap_or_default();
+        let mut sum = Sum::<S, P>::new(normal, material, self.fraction_bits);
         if S::SHINES {
             sum.to_eye = direction(self.eye);
         }
@@ -260,6 +294,10 @@ impl Finish for Glossy {
     fn strength(&self, cosine: i32) -> i32 {
         power(cosine, self.shininess)
     }
+    #[inline]
+    fn strength_at<P: Precision>(&self, cosine: i32) -> i32 {
+        P::power(cosine, self.shininess)
+    }
 }
 
 impl Specular for Glossy {
@@ -269,43 +307,43 @@ impl Specular for Glossy {
     }
 }
 
-/// What the lights so far add, in units of 2^-30 of full, at most [`BRIGHTEST`].
-struct Sum<'a, S> {
+/// What the lights so far add.
+struct Sum<'a, S, P> {
     normal: [i32; 3],
     to_eye: [i32; 3],
     material: &'a Material<S>,
-    diffuse: [i64; 3],
-    specular: [i64; 3],
+    fraction_bits: i32,
+    diffuse: Sums<P>,
+    specular: Sums<P>,
 }
 
-/// Where sums saturate: a light adds at most 2^58, and [`times`] wants less than 2^61.5.
-const BRIGHTEST: i64 = 1 << 61;
-
-impl<'a, S: Specular> Sum<'a, S> {
-    #[inline]
-    fn new(normal: [i32; 3], material: &'a Material<S>) -> Self {
+impl<'a, S: Specular, P: Precision> Sum<'a, S, P> {
+    #[inline(always)]
+    fn new(normal: [i32; 3], material: &'a Material<S>, fraction_bits: i32) -> Self {
         Sum {
-            normal: unit(normal).unwrap_or_default(),
+            normal: P::unit(normal).unwrap_or_default(),
             to_eye: [0; 3],
             material,
-            diffuse: [0; 3],
-            specular: [0; 3],
+            fraction_bits,
+            diffuse: Sums::default(),
+            specular: Sums::default(),
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn add(&mut self, direction: [i32; 3], color: &Color) {
-        let cosine = to_fraction(dot(self.normal, direction));
-        accumulate(&mut self.diffuse, color, cosine);
+        let cosine = P::dot(self.normal, direction);
+        self.diffuse.add(color, cosine, self.fraction_bits);
         if S::SHINES {
-            let half = unit(plus(direction, self.to_eye)).unwrap_or_default();
-            let cosine = to_fraction(dot(self.normal, half)).max(0);
-            accumulate(&mut self.specular, color, self.material.specular.strength(cosine));
+            let half = P::unit(plus(direction, self.to_eye)).unwrap_or_default();
+            let cosine = P::dot(self.normal, half).max(0);
+            let strength = self.material.specular.strength_at::<P>(cosine);
+            self.specular.add(color, strength, self.fraction_bits);
         }
     }
 
     /// In units of 2^-28 of full.
-    #[inline]
+    #[inline(always)]
     fn color(&self) -> [i64; 3] {
         let Material {
             ambient,
@@ -313,20 +351,102 @@ impl<'a, S: Specular> Sum<'a, S> {
             specular,
         } = self.material;
         let mut color = ambient.map(i64::from);
-        for ((sum, d), color) in self.diffuse.iter().zip(diffuse).zip(&mut color) {
-            *color += times((*sum).min(1 << 30), *d);
+        for (color, lit) in color
+            .iter_mut()
+            .zip(self.diffuse.at_most_full(*diffuse, self.fraction_bits))
+        {
+            *color += lit;
         }
         if S::SHINES {
-            for ((sum, s), color) in self.specular.iter().zip(specular.color()).zip(&mut color) {
+            for (color, lit) in color
+                .iter_mut()
+                .zip(self.specular.all(specular.color(), self.fraction_bits))
+            {
                 // Below 2^62 and 2^33.
-                *color += times(*sum, s);
+                *color += lit;
             }
         }
         color
     }
 }
 
-/// sums += max(0, color · share), rounded to 2^-30 of full; |share| ≤ 2^30 + 8, or of a finish of someone's own any.
+/// Σ max(0, color · share) for the three channels.
+#[derive(Debug, Clone, Copy)]
+struct Sums<P> {
+    /// Where [`Precision::LONG`]: in units of 2^-30 of full, at most [`BRIGHTEST`].
+    long: [i64; 3],
+    /// Else: colours with [`fraction_bits`] times shares of 15 bits.
+    short: [i32; 3],
+    precision: PhantomData<P>,
+}
+
+/// Where sums saturate: a light adds at most 2^58, and [`times`] wants less than 2^61.5.
+const BRIGHTEST: i64 = 1 << 61;
+
+impl<P> Default for Sums<P> {
+    #[inline(always)]
+    fn default() -> Self {
+        Sums {
+            long: [0; 3],
+            short: [0; 3],
+            precision: PhantomData,
+        }
+    }
+}
+
+impl<P: Precision> Sums<P> {
+    /// |`share`| ≤ 2^30 + 8, or of a finish of someone's own any.
+    #[inline(always)]
+    fn add(&mut self, color: &Color, share: i32, fraction_bits: i32) {
+        if P::LONG {
+            accumulate(&mut self.long, color, share);
+            return;
+        }
+        let share = share_15(share);
+        // Not negative: `fraction_bits` are those of all lights together.
+        let cut = (color.shift as i32 - fraction_bits).clamp(0, 31) as u32;
+        for (sum, c) in self.short.iter_mut().zip(color.mantissas) {
+            *sum = sum.saturating_add(((c >> cut) * share).max(0));
+        }
+    }
+
+    /// min(1, sum) · `color`.
+    #[inline(always)]
+    fn at_most_full(&self, color: [i32; 3], fraction_bits: i32) -> [i64; 3] {
+        let mut lit = [0; 3];
+        if P::LONG {
+            for (lit, (&sum, color)) in lit.iter_mut().zip(self.long.iter().zip(color)) {
+                *lit = times(sum.min(1 << 30), color);
+            }
+            return lit;
+        }
+        let full = (fraction_bits + 15).clamp(0, 30) as u32;
+        for (lit, (&sum, color)) in lit.iter_mut().zip(self.short.iter().zip(color)) {
+            // In units of 2^-15, 1 at most: the first product is below 2^30.
+            let light = ((sum.min(1 << full) << (30 - full)) + (1 << 14)) >> 15;
+            *lit = i64::from((((color >> 16) * light) << 1) + (((color & 0xffff) * light) >> 15));
+        }
+        lit
+    }
+
+    /// sum · `color`.
+    #[inline(always)]
+    fn all(&self, color: [i32; 3], fraction_bits: i32) -> [i64; 3] {
+        let mut lit = [0; 3];
+        if P::LONG {
+            for (lit, (&sum, color)) in lit.iter_mut().zip(self.long.iter().zip(color)) {
+                *lit = times(sum, color);
+            }
+            return lit;
+        }
+        for (lit, (&sum, color)) in lit.iter_mut().zip(self.short.iter().zip(color)) {
+            *lit = i64::from(part_16(color, light_15(sum))) << (16 - fraction_bits).clamp(0, 31);
+        }
+        lit
+    }
+}
+
+/// sums += max(0, color · share), rounded to 2^-30 of full.
 #[inline(always)]
 fn accumulate(sums: &mut [i64; 3], color: &Color, share: i32) {
     for (sum, c) in sums.iter_mut().zip(color.mantissas) {

@@ -59,6 +59,23 @@ impl<T: Word, const N: usize> Block<T, N> {
         }
     }
 
+    /// The numbers `mantissas[i] · 2^exponent`, of mantissas that may all be small; [`normalized`](Self::normalized) before anything else is done with it.
+    #[inline(always)]
+    pub(crate) const fn raw(mantissas: [T; N], exponent: i32) -> Self {
+        Block { mantissas, exponent }
+    }
+
+    /// The same numbers with mantissas as they should be.
+    #[inline]
+    pub(crate) fn normalized(self) -> Self {
+        let half = T::ONE << (T::BITS - 1);
+        if self.mantissas.iter().any(|&m| m >= half || m <= -half) {
+            self
+        } else {
+            Self::new(self.mantissas, self.exponent)
+        }
+    }
+
     /// Numbers of different scales, rounded to that of the largest.
     pub fn gather(numbers: [Scaled<T>; N]) -> Self {
         let top = |s: &Scaled<T>| if s.is_zero() { i32::MIN } else { s.exponent };

@@ -5,20 +5,28 @@
 //! largest of its block is rounded, and the bound is always relative to that largest number.
 
 mod block;
+mod one_step;
 mod power;
+mod precision;
+pub(crate) mod product;
 mod quotient;
 mod recip;
 mod root;
+mod table;
 mod trig;
 mod word;
 
 pub use block::{Block, Scaled};
+pub use one_step::OneStep;
 pub use power::power;
+pub use precision::{Precision, TwoSteps};
+pub(crate) use product::{high, high_sum};
 pub use quotient::Divisor;
-pub(crate) use recip::near_reciprocal;
 pub use recip::reciprocal;
+pub(crate) use recip::{near_reciprocal, short_reciprocal};
 pub use root::{dot, reciprocal_square_root, square_root, unit, unit_wide};
+pub use table::Table;
 #[cfg(feature = "micromath")]
 pub use trig::Micromath;
-pub use trig::{Angle, SineTable, Trigonometry};
+pub use trig::{Angle, ShortSine, SineTable, Trigonometry};
 pub use word::{Wide, Word};

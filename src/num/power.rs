@@ -78,7 +78,7 @@ fn product(a: i32, b: i32, shift: u32) -> i32 {
 }
 
 /// c for the mantissas 1 + i/32 … 1 + (i + 1)/32 in units of 2^-8: 1 over the middle, but ½ for the last.
-const INVERSES: [u8; 32] = {
+pub(super) const INVERSES: [u8; 32] = {
     let mut inverses = [128; 32];
     let mut i = 0;
     while i < 31 {
@@ -89,27 +89,32 @@ const INVERSES: [u8; 32] = {
 };
 
 /// log₂ 2c in units of 2^-32, rounded to nearest, bit by bit: squaring doubles a logarithm.
-const INVERSE_LOGS: [u32; 32] = {
+pub(super) const INVERSE_LOGS: [u32; 32] = {
     let mut logs = [0; 32];
     let mut i = 0;
     while i < 32 {
-        let (mut x, mut log, mut bit) = ((INVERSES[i] as u128) << 55, 0u64, 0);
-        while bit < 33 {
-            x = (x * x) >> 62;
-            let carry = x >> 63;
-            log = 2 * log + carry as u64;
-            x >>= carry;
-            bit += 1;
-        }
-        logs[i] = log.div_ceil(2) as u32;
+        logs[i] = log2((INVERSES[i] as u128) << 55);
         i += 1;
     }
     logs
 };
 
+/// log₂ of a number in 1…2 in units of 2^-62, in units of 2^-32.
+pub(super) const fn log2(mut x: u128) -> u32 {
+    let (mut log, mut bit) = (0u64, 0);
+    while bit < 33 {
+        x = (x * x) >> 62;
+        let carry = x >> 63;
+        log = 2 * log + carry as u64;
+        x >>= carry;
+        bit += 1;
+    }
+    log.div_ceil(2) as u32
+}
+
 /// 2^-j/32 in units of 2^-31, rounded to nearest: products of 2^-1/2, 2^-1/4 … 2^-1/32, each the root of the one
 /// before.
-const EXP_STEPS: [u32; 32] = {
+pub(super) const EXP_STEPS: [u32; 32] = {
     let mut steps = [0; 32];
     let mut j = 0;
     while j < 32 {

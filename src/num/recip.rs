@@ -1,5 +1,9 @@
 //! Reciprocals without a divider.
 
+use core::num::NonZeroU32;
+
+use super::product::{high, high_unsigned};
+
 /// floor(2^63 / `divisor`), exactly, for a normalised divisor in 2^31…2^32−1; the result lies in 2^31…2^32.
 ///
 /// A seed from a table of 128 entries is within 2^-8, each of two Newton steps squares the error, and a last
@@ -44,11 +48,17 @@ pub(crate) fn near_reciprocal(divisor: u32) -> i32 {
     let mut y = (seed as i32) << 15;
     for _ in 0..2 {
         // 1 − d·y in units of 2^-30, never too large: y stays below the reciprocal, that is below 2^31.
-        let product = ((y as u64 * divisor as u64) >> 32) as i32;
+        let product = high_unsigned(y as u32, divisor) as i32;
         let error = ((1 << 30) - 1i32).wrapping_sub(product);
-        y = y.wrapping_add(((y as i64 * (error << 2) as i64) >> 32) as i32);
+        y = y.wrapping_add(high(y, error << 2));
     }
     y
+}
+
+/// floor(2^31 / `divisor`), by the core's divider: 3 instructions on Cortex-M4, some 200 on ARMv6-M, which has none.
+#[inline(always)]
+pub(crate) fn short_reciprocal(divisor: NonZeroU32) -> u32 {
+    (1 << 31) / divisor
 }
 
 /// seed·2^16 ≈ 2^63 / divisor for the divisors that share their top eight bits, 128 + i.

@@ -84,6 +84,12 @@ fn corrected(estimate: u32, step: i32) -> u32 {
 /// ```
 #[inline]
 pub fn unit(vector: [i32; 3]) -> Option<[i32; 3]> {
+    unit_by(vector, reciprocal_square_root)
+}
+
+/// [`unit`](fn@unit) with a reciprocal square root of any precision.
+#[inline(always)]
+pub(super) fn unit_by(vector: [i32; 3], reciprocal_square_root: impl Fn(u32) -> u32) -> Option<[i32; 3]> {
     // −2^31 has no magnitude in 31 bits; one unit less is 2^-31 of it.
     let vector = vector.map(|c| c.max(-i32::MAX));
     let all_bits = vector.iter().fold(0, |bits, c| bits | c.unsigned_abs());
@@ -116,12 +122,20 @@ pub fn unit(vector: [i32; 3]) -> Option<[i32; 3]> {
 /// ```
 #[inline]
 pub fn unit_wide(vector: [i64; 3]) -> Option<[i32; 3]> {
+    unit(cut(vector))
+}
+
+/// The same direction in 31 bits and a sign; as it is where that is enough.
+#[inline]
+pub(super) fn cut(vector: [i64; 3]) -> [i32; 3] {
     let all_bits = vector.iter().fold(0, |bits, c| bits | c.unsigned_abs());
-    // 31 bits and a sign remain; what is cut off is below 2^-30 of the largest.
-    unit(match 33u32.checked_sub(all_bits.leading_zeros()) {
-        None | Some(0) => vector.map(|c| c as i32),
-        Some(excess) => vector.map(|c| (c >> excess) as i32),
-    })
+    // 31 bits and a sign remain; what is cut off is below 2^-30 of the largest. As a rule nothing is, and that is seen without a
+    // count of zeros.
+    if all_bits >> 31 == 0 {
+        return vector.map(|c| c as i32);
+    }
+    let excess = 33u32.saturating_sub(all_bits.leading_zeros());
+    vector.map(|c| (c >> excess) as i32)
 }
 
 /// The dot product of two unit vectors in units of 2^-60; components of at most 2^30 + 8.
