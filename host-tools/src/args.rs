@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, Parser, ValueEnum};
 
+use crate::fixed::dials::Tier;
 use crate::scene::format::Format;
 use crate::scene::iv::Shading;
 use crate::scene::size::Size;
@@ -12,6 +13,10 @@ use crate::scene::size::Size;
 const EXIT_CODES: &str = "\
 host-render emit SCENE -o FILE.rs writes a scene as Rust for firmware; see host-render emit --help.
 host-render extremes shows how far the stated bounds hold; see host-render extremes --help.
+host-render sweep shows what a scene's speed costs in accuracy; see host-render sweep --help.
+
+With --quality fast or balanced the bounds are still those of exact: what lies beyond them is counted as unexplained, \
+and the run ends with 1. No quality changes which pixels are covered.
 
 Exit codes: 0 within limits, 1 differs, 2 bad scene or bad usage, 3 file trouble, 4 internal error; of several \
 scenes the largest.
@@ -75,6 +80,14 @@ pub struct Args {
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
 
+    /// Show in the report what speed costs in accuracy, as host-render sweep does; this takes a while
+    #[arg(long, requires = "report")]
+    pub sweep: bool,
+
+    /// Tier of the fixed-point core
+    #[arg(long, value_enum, value_name = "NAME", default_value = "exact")]
+    pub quality: Tier,
+
     /// One JSON object per scene on standard output
     #[arg(long)]
     pub json: bool,
@@ -129,9 +142,29 @@ impl Args {
             ties: None,
             depth_out: None,
             report: None,
+            sweep: false,
+            quality: Tier::Exact,
             json: false,
             command: String::new(),
         }
+    }
+
+    /// The options of [`of_scene`](Self::of_scene), as they are given on a command line.
+    pub fn scene_options(&self) -> Vec<String> {
+        let mut options = Vec::new();
+        if let Some(format) = self.format {
+            options.push(format!("--format={format}"));
+        }
+        if let Some(size) = self.size {
+            options.push(format!("--size={}x{}", size.width(), size.height()));
+        }
+        if let Some(shading) = self.shading.and_then(|shading| shading.to_possible_value()) {
+            options.push(format!("--shading={}", shading.get_name()));
+        }
+        if self.eyelight {
+            options.push("--eyelight".to_owned());
+        }
+        options
     }
 
     /// An option given that says what only iv and OBJ scenes leave open.
@@ -206,12 +239,40 @@ mod tests {
     }
 
     #[test]
+    fn exact_is_the_quality_unless_another_is_asked_for() {
+        let quality = |line: &str| Args::from(line.split(' ')).expect("good usage").quality;
+        assert_eq!(quality("host-render a.txt"), Tier::Exact);
+        for tier in [Tier::Fast, Tier::Balanced, Tier::Exact] {
+            assert_eq!(quality(&format!("host-render a.txt --quality {tier}")), tier);
+        }
+    }
+
+    #[test]
+    fn the_options_of_a_scene_are_read_back() {
+        let line = "host-render a.iv --format=iv --size=9x8 --shading=phong --eyelight";
+        let args = Args::from(line.split(' ')).expect("good usage");
+        assert_eq!(
+            args.scene_options().join(" "),
+            "--format=iv --size=9x8 --shading=phong --eyelight"
+        );
+        assert!(
+            Args::from(["host-render", "a.txt"])
+                .expect("good usage")
+                .scene_options()
+                .is_empty()
+        );
+    }
+
+    #[test]
     fn bad_usage() {
         for line in [
             "host-render",
             "host-render a.txt --ties t.png",
             "host-render a.txt --format png",
             "host-render a.txt --report",
+            "host-render a.txt --sweep",
+            "host-render a.txt --quality",
+            "host-render a.txt --quality best",
             "host-render a.iv --size",
             "host-render a.iv --size 10",
             "host-render a.iv --size 0x10",

@@ -8,6 +8,7 @@ use fixel_host::emit::command::Command as Emit;
 use fixel_host::exit::Exit;
 use fixel_host::extremes::command::Command as Extremes;
 use fixel_host::run::run;
+use fixel_host::sweep::command::Command as Sweep;
 
 fn main() -> ExitCode {
     if let Some(command) = Extremes::asked() {
@@ -15,6 +16,9 @@ fn main() -> ExitCode {
     }
     if let Some(command) = Emit::asked() {
         return command.run().into();
+    }
+    if let Some(command) = Sweep::asked() {
+        return catch_unwind(|| command.run()).unwrap_or(Exit::Internal).into();
     }
     let args = Args::read();
     catch_unwind(|| run(&args)).unwrap_or(Exit::Internal).into()

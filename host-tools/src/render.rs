@@ -3,11 +3,12 @@
 use std::time::Instant;
 
 use crate::compare::{self, Comparison};
+use crate::fixed::dials::Dials;
 use crate::fixed::{self, FixedPicture};
 use crate::interpret::interpret;
 use crate::picture::Picture;
-use crate::reference;
-use crate::scene::{Fault, Scene, hw2, mp1};
+use crate::reference::{self, hw2, iv, mp1};
+use crate::scene::{self, Fault, Scene};
 
 /// Both pictures and what became of the comparison.
 #[derive(Debug)]
@@ -26,82 +27,77 @@ pub struct Rendered {
     pub seconds_reference: f64,
 }
 
-/// Draws a scene with both back ends, at the same time where there are processors for it.
+/// Draws a scene with both back ends, at the same time where there are processors for it, the core's dials set as given.
 ///
 /// # Errors
 /// A fault at the keyword of a command whose values do not fit a back end.
-pub fn render(scene: &Scene) -> Result<Rendered, Fault> {
-    match scene {
-        Scene::Hw2(scene) => {
-            let drawn = both(|| fixed_hw2(scene), || reference_hw2(scene))?;
-            let comparison = compare::compare(&drawn.fixed, &drawn.reference);
-            Ok(drawn.rendered(|reference| reference.bytes(), comparison))
-        }
-        Scene::Mp1(scene) => {
-            let drawn = both(|| fixed::mp1::draw(scene), || Ok(reference::mp1::draw(scene)))?;
-            let comparison = compare_mp1(scene, &drawn)?;
-            Ok(drawn.rendered(|reference| reference.bytes(), comparison))
-        }
-        Scene::Iv(scene) => {
-            let drawn = both(|| fixed::iv::draw(scene), || Ok(reference::iv::draw(scene)))?;
-            let comparison = compare::iv::compare(scene, &drawn.fixed, &drawn.reference);
-            Ok(drawn.rendered(|reference| reference.bytes(), comparison))
-        }
-    }
-}
-
-fn fixed_hw2(scene: &hw2::Scene) -> Result<FixedPicture, Fault> {
-    let mut back_end = fixed::hw2::Fixed::new(scene.width, scene.height);
-    interpret(scene, &mut back_end)?;
-    Ok(back_end.finish())
-}
-
-fn reference_hw2(scene: &hw2::Scene) -> Result<reference::hw2::Drawn, Fault> {
-    let mut back_end = reference::hw2::Reference::new(scene.width, scene.height);
-    interpret(scene, &mut back_end)?;
-    Ok(back_end.finish())
-}
-
-fn compare_mp1(scene: &mp1::Scene, drawn: &Both<reference::mp1::Rendered>) -> Result<Comparison, Fault> {
-    let shift = fixed::mp1::color_shift(scene)?;
-    Ok(compare::mp1::compare(scene, shift, &drawn.fixed, &drawn.reference))
-}
-
-/// Both pictures, each with the time that it took.
-struct Both<R> {
-    fixed: FixedPicture,
-    seconds_fixed: f64,
-    reference: R,
-    seconds_reference: f64,
-}
-
-fn both<R: Send>(
-    fixed: impl FnOnce() -> Result<FixedPicture, Fault> + Send,
-    reference: impl FnOnce() -> Result<R, Fault> + Send,
-) -> Result<Both<R>, Fault> {
-    let (fixed, reference) = rayon::join(|| timed(fixed), || timed(reference));
+pub fn render(scene: &Scene, dials: Dials) -> Result<Rendered, Fault> {
+    let (fixed, reference) = rayon::join(
+        || timed(|| fixed::draw(scene, dials)),
+        || timed(|| Reference::draw(scene)),
+    );
     let (fixed, seconds_fixed) = fixed?;
     let (reference, seconds_reference) = reference?;
-    Ok(Both {
-        fixed,
+    let comparison = reference.compare(&fixed)?;
+    Ok(Rendered {
+        fixed: fixed.picture(),
+        reference: Picture::new(fixed.width, fixed.height, reference.bytes()),
+        depth: fixed.depth,
+        comparison,
         seconds_fixed,
-        reference,
         seconds_reference,
     })
 }
 
-impl<R> Both<R> {
-    fn rendered(self, bytes: impl FnOnce(&R) -> Vec<[u8; 4]>, comparison: Comparison) -> Rendered {
-        let (width, height) = (self.fixed.width, self.fixed.height);
-        let pixels = self.fixed.pixels.iter().map(|pixel| pixel.rgba).collect();
-        Rendered {
-            fixed: Picture::new(width, height, pixels),
-            depth: self.fixed.depth,
-            reference: Picture::new(width, height, bytes(&self.reference)),
-            comparison,
-            seconds_fixed: self.seconds_fixed,
-            seconds_reference: self.seconds_reference,
+/// The float64 reference's picture of a scene, and what it was drawn from.
+pub enum Reference<'s> {
+    /// Of an HW2 scene.
+    Hw2(hw2::Drawn),
+    /// Of an MP1 scene.
+    Mp1(&'s scene::mp1::Scene, mp1::Rendered),
+    /// Of an Inventor scene.
+    Iv(&'s scene::iv::Scene, reference::Rendered<()>),
+}
+
+impl<'s> Reference<'s> {
+    /// Draws a scene.
+    ///
+    /// # Errors
+    /// A fault at the keyword of a command whose values do not fit.
+    pub fn draw(scene: &'s Scene) -> Result<Self, Fault> {
+        Ok(match scene {
+            Scene::Hw2(scene) => {
+                let mut back_end = hw2::Reference::new(scene.width, scene.height);
+                interpret(scene, &mut back_end)?;
+                Reference::Hw2(back_end.finish())
+            }
+            Scene::Mp1(scene) => Reference::Mp1(scene, mp1::draw(scene)),
+            Scene::Iv(scene) => Reference::Iv(scene, iv::draw(scene)),
+        })
+    }
+
+    /// Red, green, blue and alpha of the picture, row by row.
+    pub fn bytes(&self) -> Vec<[u8; 4]> {
+        match self {
+            Reference::Hw2(drawn) => drawn.bytes(),
+            Reference::Mp1(_, drawn) => drawn.bytes(),
+            Reference::Iv(_, drawn) => drawn.bytes(),
         }
+    }
+
+    /// Where and why the core's picture of the scene differs.
+    ///
+    /// # Errors
+    /// Where the scene's values do not fit the core, which has drawn it.
+    pub fn compare(&self, fixed: &FixedPicture) -> Result<Comparison, Fault> {
+        Ok(match self {
+            Reference::Hw2(drawn) => compare::compare(fixed, drawn),
+            Reference::Mp1(scene, drawn) => {
+                let shift = fixed::mp1::color_shift(scene)?;
+                compare::mp1::compare(scene, shift, fixed, drawn)
+            }
+            Reference::Iv(scene, drawn) => compare::iv::compare(scene, fixed, drawn),
+        })
     }
 }
 

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use crate::against::Agreement;
 use crate::compare::{Comparison, Explained};
 use crate::exit::{Exit, Failure};
+use crate::fixed::dials::Tier;
 use crate::scene::format::Format;
 
 /// All that is known of a rendered scene.
@@ -17,6 +18,8 @@ pub struct Report {
     pub scene: String,
     /// Its format.
     pub format: Format,
+    /// The core's tier.
+    pub quality: Tier,
     /// Width of the picture.
     pub width: u32,
     /// Height of the picture.
@@ -47,10 +50,20 @@ impl Report {
     /// One line for people.
     pub fn line(&self) -> String {
         let found = &self.comparison;
-        let mut line = format!(
-            "{}: {}x{}, {} pixels drawn, {} unexplained",
-            self.scene, self.width, self.height, found.pixels_drawn, found.unexplained
+        let mut line = format!("{}: {}x{}", self.scene, self.width, self.height);
+        if self.quality != Tier::Exact {
+            push(&mut line, format_args!(", quality {}", self.quality));
+        }
+        push(
+            &mut line,
+            format_args!(
+                ", {} pixels drawn, {} unexplained",
+                found.pixels_drawn, found.unexplained
+            ),
         );
+        if self.quality != Tier::Exact {
+            line.push_str(" by the bounds of exact");
+        }
         let total: u64 = classes(&found.explained).iter().map(|(_, count)| count).sum();
         push(&mut line, format_args!(", {total} explained"));
         let mut opening = " (";
@@ -100,6 +113,7 @@ impl Report {
         let mut object = json!({
             "scene": self.scene,
             "format": self.format.to_string(),
+            "quality": self.quality.to_string(),
             "width": self.width,
             "height": self.height,
             "pixels_drawn": found.pixels_drawn,
@@ -177,6 +191,7 @@ mod tests {
         Report {
             scene: "a.txt".to_owned(),
             format: Format::Hw2,
+            quality: Tier::Exact,
             width: 20,
             height: 10,
             comparison: Comparison {
@@ -204,6 +219,10 @@ mod tests {
             "a.txt: 20x10, 100 pixels drawn, 0 unexplained, 5 explained (colour 2 = 2.00 %, edge 3 = 3.00 %), \
              largest error 7, PSNR 54.2 dB, 1.5 ms fixed, 250.0 ms reference"
         );
+        report.quality = Tier::Fast;
+        assert!(report.line().starts_with(
+            "a.txt: 20x10, quality fast, 100 pixels drawn, 0 unexplained by the bounds of exact, 5 explained"
+        ));
         report.against = Some([Agreement::default(); 2]);
         assert!(
             report

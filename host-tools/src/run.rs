@@ -11,6 +11,7 @@ use crate::against::Against;
 use crate::args::Args;
 use crate::exit::{Exit, Failure};
 use crate::files::{self, Staged};
+use crate::fixed::dials::Dials;
 use crate::load::{Loaded, load};
 use crate::maps;
 use crate::outputs::{Outputs, plan};
@@ -19,6 +20,7 @@ use crate::picture::Picture;
 use crate::png;
 use crate::render::{Rendered, render};
 use crate::report::{self, Report};
+use crate::sweep::sweep;
 
 /// Does what the command line says and tells how it went.
 pub fn run(args: &Args) -> Exit {
@@ -113,12 +115,14 @@ fn guarded<T>(file: &Path, work: impl FnOnce() -> Result<T, Failure>) -> Result<
 
 fn one(args: &Args, loaded: &Loaded, outputs: &Outputs) -> Outcome {
     let against = Against::read(args, loaded)?;
-    let rendered = render(&loaded.scene).map_err(|fault| Failure::scene(&loaded.file, &fault))?;
+    let rendered =
+        render(&loaded.scene, Dials::of(args.quality)).map_err(|fault| Failure::scene(&loaded.file, &fault))?;
     write(outputs, &rendered)?;
     let (width, height) = loaded.scene.size();
     let report = Report {
         scene: loaded.file.display().to_string(),
         format: loaded.format,
+        quality: args.quality,
         width,
         height,
         against: against.map(|against| [&rendered.fixed, &rendered.reference].map(|p| against.agreement(p))),
@@ -127,7 +131,11 @@ fn one(args: &Args, loaded: &Loaded, outputs: &Outputs) -> Outcome {
         comparison: rendered.comparison,
     };
     let section = match args.report {
-        Some(_) => Some(page::section(loaded, [&rendered.fixed, &rendered.reference], &report)?),
+        Some(_) => {
+            let sweep = args.sweep.then(|| sweep(loaded, args)).transpose()?;
+            let pictures = [&rendered.fixed, &rendered.reference];
+            Some(page::section(loaded, pictures, &report, sweep.as_ref())?)
+        }
         None => None,
     };
     Ok(Told { report, section })

@@ -430,3 +430,26 @@ mod unix {
         assert!(device.file_type().is_char_device());
     }
 }
+
+#[test]
+fn the_help_names_the_tiers_and_the_sweep() {
+    let folder = Folder::new();
+    let run = folder.run("--help");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    for text in [
+        "--quality",
+        "fast",
+        "balanced",
+        "exact",
+        "host-render sweep",
+        "counted as unexplained",
+    ] {
+        assert!(run.out.contains(text), "no {text:?} in {}", run.out);
+    }
+    let run = folder.run("sweep --help");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    for text in ["--max-error", "--max-instructions", "--csv", "valgrind"] {
+        assert!(run.out.contains(text), "no {text:?} in {}", run.out);
+    }
+    assert!(!run.out.contains("--draw"), "{}", run.out);
+}

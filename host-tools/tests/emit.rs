@@ -66,8 +66,17 @@ fn main() {
 }
 "#;
 
-/// A crate of all the scenes, in a folder of its own.
+/// A crate of all the scenes.
 fn build(name: &str, scenes: &[(String, Emitted)]) -> PathBuf {
+    let lib = format!(
+        "#![no_std]\n#![deny(warnings)]\n#![forbid(unsafe_code)]\n\n{}",
+        harness::file(scenes)
+    );
+    build_crate(name, &[("lib.rs", &lib), ("main.rs", MAIN)])
+}
+
+/// A crate of these sources, in a folder of its own; its program.
+fn build_crate(name: &str, sources: &[(&str, &str)]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(folder.join("src")).unwrap();
     let manifest = format!(
@@ -77,12 +86,9 @@ fn build(name: &str, scenes: &[(String, Emitted)]) -> PathBuf {
     );
     fs::write(folder.join("Cargo.toml"), manifest).unwrap();
     fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    let lib = format!(
-        "#![no_std]\n#![deny(warnings)]\n#![forbid(unsafe_code)]\n\n{}",
-        harness::file(scenes)
-    );
-    fs::write(folder.join("src/lib.rs"), lib).unwrap();
-    fs::write(folder.join("src/main.rs"), MAIN).unwrap();
+    for (file, text) in sources {
+        fs::write(folder.join("src").join(file), text).unwrap();
+    }
     let built = Command::new(env!("CARGO"))
         .args(["build", "--offline", "--quiet", "--target-dir"])
         .arg(folder.join("target"))
@@ -113,14 +119,14 @@ fn compare(program: &Path, rows: u16, scenes: &[(String, Emitted)]) {
 }
 
 /// As rustfmt would have written it, on lines of its default length.
-fn check_format(scenes: &[(String, Emitted)]) {
+fn check_format(texts: &[(String, String)]) {
     let folder = tempfile::tempdir().unwrap();
-    let write = |(name, emitted): &(String, Emitted)| {
+    let write = |(name, text): &(String, String)| {
         let file = folder.path().join(format!("{name}.rs"));
-        fs::write(&file, &emitted.text).unwrap();
+        fs::write(&file, text).unwrap();
         file
     };
-    let files: Vec<_> = scenes.iter().map(write).collect();
+    let files: Vec<_> = texts.iter().map(write).collect();
     let checked = Command::new("rustfmt")
         .args(["--check", "--edition", "2024", "--config", "max_width=100"])
         .args(files)
@@ -166,8 +172,145 @@ fn conformance_scenes_draw_the_same_bytes() {
     files.extend(scenes(&folder.join("mp1"), &["txt"]));
     assert_eq!(files.len(), 48);
     let emitted: Vec<_> = files.iter().map(|file| emitted(file)).collect();
-    check_format(&emitted);
+    let texts: Vec<_> = emitted.iter().map(|(name, e)| (name.clone(), e.text.clone())).collect();
+    check_format(&texts);
     check("emitted-conformance", &files);
+}
+
+/// Draws an emitted mesh turned in some ways, as it says and triangle by triangle with a depth buffer.
+const MESH_MAIN: &str = r#"
+#![deny(warnings)]
+#![forbid(unsafe_code)]
+
+mod mesh;
+
+use fixel::clip::{Behind, DepthRange, Planes};
+use fixel::depth::{DepthBuffer, FAR, LessOrEqual};
+use fixel::light::Sunlight;
+use fixel::matrix::{Directions, Matrix};
+use fixel::num::{Angle, Block, Scaled, SineTable};
+use fixel::target::Buffer;
+use fixel::view::{Cull, View};
+use fixel::viewport::Viewport;
+
+const SIZE: u16 = 90;
+
+fn main() {
+    for frame in 0..24 {
+        let turn = Matrix::rotation::<SineTable>(Angle::from_degrees(15 * frame), Block::from_integers([3, 5, 1]));
+        let model = Matrix::translation(Block::from_integers([0, 0, -3])).product(&turn.unwrap());
+        let camera = Matrix::frustum([-1, 1, -1, 1, 2, 5].map(Scaled::from_integer)).unwrap();
+        let view = View::<i32, i32, 0> {
+            projection: camera.product(&model),
+            planes: Planes::default(),
+            viewport: Viewport::new(0, 0, SIZE, SIZE).unwrap().y_up().samples_at_centers(),
+            depth_range: DepthRange::MinusOneToOne,
+            behind: Behind::Cut,
+            cull: Cull::Clockwise,
+        };
+        let mut directions = Directions::identity();
+        directions.load(&model);
+        let light = Sunlight::new([1, 2, 3], &directions, [6 << 16; 3], [24 << 16; 3]).unwrap();
+        let pictures = [mesh::as_emitted, mesh::one_by_one].map(|draw| {
+            let (mut pixels, mut depths) = ([0; SIZE as usize * SIZE as usize], [FAR; SIZE as usize * SIZE as usize]);
+            let mut color = Buffer::new(&mut pixels, SIZE, SIZE).unwrap();
+            let depth = Buffer::new(&mut depths, SIZE, SIZE).unwrap();
+            draw(&view, &light, &mut color, &mut DepthBuffer::<_, LessOrEqual>::new(depth));
+            pixels
+        });
+        let [emitted, wanted] = pictures;
+        assert!(emitted.iter().filter(|&&pixel| pixel != 0).count() > 500, "next to nothing in frame {frame}");
+        assert!(emitted == wanted, "frame {frame} differs");
+    }
+    println!("24 frames");
+}
+"#;
+
+/// What the module of a mesh gets besides: both ways to draw with the same parameters.
+fn two_ways(flat: bool, depth: bool) -> String {
+    let depth = if depth { ", depth" } else { "" };
+    let one = if flat {
+        "let [r, g, b] = light.shade(*normal).map(|c| c >> 16);
+            let color_of = fixel::fragment::Flat(((r << 11) | (g << 5) | b) as u16);
+            let carried = [(); 3];"
+    } else {
+        "let color_of = fixel::fragment::Gouraud565;
+            let carried = triangle.map(|i| light.shade(NORMALS[usize::from(i)]));"
+    };
+    let zipped = if flat {
+        "(triangle, normal) in TRIANGLES.iter().zip(&NORMALS)"
+    } else {
+        "triangle in &TRIANGLES"
+    };
+    format!(
+        "
+type Pixels<'a> = fixel::target::Buffer<'a, u16>;
+type Depths<'a> = fixel::depth::DepthBuffer<fixel::target::Buffer<'a, u16>, fixel::depth::LessOrEqual>;
+
+pub fn as_emitted(view: &View<i32, i32, 0>, light: &Sunlight, color: &mut Pixels, depth: &mut Depths) {{
+    let _ = &depth;
+    draw(view, light, &mut EMPTY.clone(), color{depth});
+}}
+
+pub fn one_by_one(view: &View<i32, i32, 0>, light: &Sunlight, color: &mut Pixels, depth: &mut Depths) {{
+    use fixel::mesh::Normalized;
+    for {zipped} {{
+        {one}
+        let mut carried = carried.into_iter();
+        let corners = triangle.map(|i| fixel::view::Vertex {{
+            position: POSITIONS[usize::from(i)].point(),
+            carried: carried.next().unwrap(),
+        }});
+        fixel::draw::primitive(view, color, depth, &corners, &color_of);
+    }}
+}}
+"
+    )
+}
+
+#[test]
+fn meshes_draw_as_their_triangles_do() {
+    let octahedron = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n\
+        f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+    let folder = tempfile::tempdir().unwrap();
+    let octahedron_file = folder.path().join("octahedron.obj");
+    fs::write(&octahedron_file, octahedron).unwrap();
+    let vase = root().join("tests/scenes/vase.obj");
+    let cases = [
+        (octahedron_file.to_str().unwrap(), "flat", false),
+        (octahedron_file.to_str().unwrap(), "gouraud", false),
+        (vase.to_str().unwrap(), "flat", true),
+        (vase.to_str().unwrap(), "gouraud", true),
+    ];
+    for (file, shading, depth) in cases {
+        let out = folder.path().join("mesh.rs");
+        let (code, told) = command(&[file, "--mesh", "--shading", shading, "-o", out.to_str().unwrap()]);
+        assert_eq!(code, Some(0), "{told}");
+        assert_eq!(told.contains("depth buffer: none"), !depth, "{told}");
+        let text = fs::read_to_string(&out).unwrap();
+        check_format(&[("mesh".to_owned(), text.clone())]);
+        let module = text + &two_ways(shading == "flat", depth);
+        let program = build_crate("emitted-mesh", &[("mesh.rs", &module), ("main.rs", MESH_MAIN)]);
+        let output = Command::new(program).output().expect("it runs");
+        assert!(
+            output.status.success(),
+            "{file} {shading}: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+    }
+}
+
+#[test]
+fn only_obj_files_are_meshes() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("mesh.rs");
+    let out = out.to_str().unwrap();
+    let scene = |name: &str| root().join("tests/scenes").join(name).to_str().unwrap().to_owned();
+    let (code, text) = command(&[&scene("prisms.txt"), "--mesh", "-o", out]);
+    assert!(code == Some(2) && text.contains("--mesh is for OBJ files"), "{text}");
+    let (code, text) = command(&[&scene("vase.obj"), "--mesh", "--shading", "phong", "-o", out]);
+    assert!(code == Some(2) && text.contains("flat or gouraud"), "{text}");
+    assert!(!Path::new(out).exists());
 }
 
 fn command(arguments: &[&str]) -> (Option<i32>, String) {

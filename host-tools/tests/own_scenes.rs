@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use fixel::window::Window;
 use fixel_host::args::Args;
 use fixel_host::compare::Comparison;
+use fixel_host::fixed::dials::Dials;
 use fixel_host::fixed::{self, FixedPicture};
 use fixel_host::interpret::interpret;
 use fixel_host::load::load;
@@ -63,7 +64,7 @@ fn whole(name: &str, scene: &Scene) -> FixedPicture {
 }
 
 fn compared(name: &str, scene: &Scene) -> Comparison {
-    let rendered = render(scene).unwrap_or_else(|fault| panic!("{name}: {fault}"));
+    let rendered = render(scene, Dials::default()).unwrap_or_else(|fault| panic!("{name}: {fault}"));
     rendered.comparison
 }
 

@@ -88,7 +88,7 @@ fn the_workloads_are_the_stored_ones() {
     let per_triangle = |[instructions, _]: [f64; 2]| format!("{:.0}", instructions / 2000.0);
     let per_frame = |[instructions, _]: [f64; 2]| format!("{:.2} M", instructions / 1e6);
     type Figure<'a> = &'a dyn Fn([f64; 2]) -> String;
-    let rows: [(&str, &str, Figure<'_>); 6] = [
+    let rows: [(&str, &str, Figure<'_>); 7] = [
         ("W1", "one flat triangle, per pixel", &per_pixel),
         (
             "W2",
@@ -100,6 +100,7 @@ fn the_workloads_are_the_stored_ones() {
             "textured in perspective with depth, a division per pixel",
             &per_pixel,
         ),
+        ("W3_spans", "the same by subspans within half a texel", &per_pixel),
         ("W4", "triangles of 10 px, Gouraud with depth, each", &per_triangle),
         (
             "W5",
@@ -115,4 +116,38 @@ fn the_workloads_are_the_stored_ones() {
     };
     let expected = rows.map(row).concat();
     assert!(readme().contains(&expected), "README should show\n{expected}");
+}
+
+/// So is what the tiers trade.
+#[test]
+fn the_tiers_are_the_stored_ones() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let stored = std::fs::read_to_string(root.join("firmware/trade.json")).unwrap();
+    let stored: serde_json::Value = serde_json::from_str(&stored).unwrap();
+    let mut rows = 0;
+    for sweep in stored["sweeps"].as_array().unwrap() {
+        let title = match sweep["scene"].as_str().unwrap() {
+            "flat" => "flat mesh",
+            "gouraud" => "Gouraud mesh",
+            "textured" => "textured in perspective",
+            "lit" => "lit per pixel",
+            other => panic!("{other}: not in the README"),
+        };
+        for tier in ["fast", "balanced", "exact"] {
+            let points = sweep["points"].as_array().unwrap();
+            let point = points.iter().find(|point| point["dial"] == tier).unwrap();
+            let number = |key: &str| point[key].as_f64().unwrap();
+            let costs = ["m4", "m0", "riscv"].map(|machine| number(machine) / sweep["pixels"].as_f64().unwrap());
+            let expected = format!(
+                "| {title} | {tier} | {} | {:.3} | {:.2} | {:.1} % |\n",
+                costs.map(|cost| format!("{cost:.1}")).join(" | "),
+                number("mean_error"),
+                number("p999_error"),
+                100.0 * number("differing_share")
+            );
+            assert!(readme().contains(&expected), "README should show\n{expected}");
+            rows += 1;
+        }
+    }
+    assert_eq!(rows, 12);
 }

@@ -265,3 +265,69 @@ fn a_scene_that_fails_is_in_the_report_too() {
     let run = folder.run("a.txt --report none/r.html");
     assert_eq!(run.code, Some(3), "{run:?}");
 }
+
+/// Measures the chart of the sweep.
+const CHART_READER: &str = r#"<pre id="findings"></pre><script>
+addEventListener("load", () => {
+  const svg = document.querySelector("figure.tradeoff svg");
+  const boxes = [...svg.querySelectorAll("text, circle")].map((e) => e.getBBox());
+  const names = [...svg.querySelectorAll("text.name")];
+  const found = {
+    faults,
+    points: svg.querySelectorAll("circle").length,
+    front: svg.querySelectorAll("circle.front").length,
+    names: names.map((e) => e.textContent),
+    sides: [Math.min(...boxes.map((b) => b.x)), Math.max(...boxes.map((b) => b.x + b.width))],
+    heights: names.map((e) => e.getBBox().y),
+    box: [svg.viewBox.baseVal.width, svg.viewBox.baseVal.height],
+  };
+  document.getElementById("findings").textContent = JSON.stringify(found);
+});
+</script>"#;
+
+#[test]
+fn the_chart_shows_what_the_sweep_found() {
+    let folder = Folder::new();
+    let run = folder
+        .write(NAME, SCENE.replace("trif", "trig"))
+        .run_alone(&format!("{NAME} --report r.html --sweep"));
+    assert_eq!(run.code, Some(0), "{run:?}");
+    let page = String::from_utf8(folder.read("r.html")).expect("UTF-8");
+    assert!(page.contains("What firmware needs to draw it") && page.contains("<li>depth buffer: none"));
+    let without = folder.run_alone(&format!("{NAME} --report r.html"));
+    assert_eq!(without.code, Some(0), "{without:?}");
+    assert!(!String::from_utf8_lossy(&folder.read("r.html")).contains("figure class=\"chart tradeoff\""));
+
+    let names = [
+        "exact",
+        "balanced",
+        "fast",
+        "exact+perspective=32-bit",
+        "exact+perspective=spans",
+        "exact+perspective=affine",
+    ];
+    for name in names {
+        assert!(page.contains(&format!(">{name}</text>")), "{name}");
+    }
+    let Some(browser) = browser() else { return };
+    let watched = page.replacen("<head>", &format!("<head>{WATCH}"), 1);
+    let watched = watched.replacen("</body>", &format!("{CHART_READER}</body>"), 1);
+    let found = visit(&browser, &folder, &watched, &[]);
+    assert_eq!(found["faults"], serde_json::json!([]));
+    assert_eq!(found["points"], names.len());
+    assert!(found["front"].as_u64().is_some_and(|front| front >= 1), "{found}");
+    let numbers = |key: &str| -> Vec<f64> {
+        let numbers = found[key].as_array().expect("numbers").iter();
+        numbers.map(|number| number.as_f64().expect("a number")).collect()
+    };
+    let (sides, size) = (numbers("sides"), numbers("box"));
+    assert!(sides[0] >= 0.0 && sides[1] <= size[0], "text sticks out: {found}");
+    let mut heights = numbers("heights");
+    heights.sort_by(f64::total_cmp);
+    assert!(
+        heights.windows(2).all(|pair| pair[1] - pair[0] >= 12.0),
+        "names run into one another: {found}"
+    );
+    let phone = visit(&browser, &folder, &on_a_phone(&page), &[]);
+    assert_eq!(phone["content"], phone["inner"], "nothing sticks out sideways: {phone}");
+}

@@ -1,5 +1,7 @@
 //! The fixed-point core's picture, as the comparison sees it.
 
+use crate::picture::Picture;
+
 /// One pixel of the fixed-point core.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Pixel {
@@ -20,4 +22,12 @@ pub struct FixedPicture {
     pub pixels: Vec<Pixel>,
     /// `width * height` depths in steps of 1/65535; 65535 where nothing was drawn.
     pub depth: Vec<u16>,
+}
+
+impl FixedPicture {
+    /// What is seen of it.
+    pub fn picture(&self) -> Picture {
+        let bytes = self.pixels.iter().map(|pixel| pixel.rgba).collect();
+        Picture::new(self.width, self.height, bytes)
+    }
 }

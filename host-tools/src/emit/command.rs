@@ -6,11 +6,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Parser;
 
-use super::{Emitted, emit};
+use super::emit;
+use super::mesh::{EmittedMesh, Mesh};
 use crate::args::Args;
 use crate::exit::{Exit, Failure};
 use crate::files;
-use crate::load::load;
+use crate::load::{Loaded, load};
+use crate::scene::Scene;
 use crate::scene::format::Format;
 use crate::scene::iv::Shading;
 use crate::scene::size::Size;
@@ -45,7 +47,14 @@ pub struct Command {
     /// Add a dim light at the camera, to iv and OBJ scenes
     #[arg(long)]
     pub eyelight: bool,
+
+    /// The mesh of an OBJ file instead of a picture of it: place and light are left to the firmware
+    #[arg(long, conflicts_with = "eyelight")]
+    pub mesh: bool,
 }
+
+/// What was written: the lines that are told of it.
+struct Written(Vec<String>);
 
 impl Command {
     /// The words of this command line below `emit`, if it is one.
@@ -63,7 +72,7 @@ impl Command {
         let done = catch_unwind(AssertUnwindSafe(|| self.write()))
             .unwrap_or_else(|payload| Err(Failure::panic(&self.scene, payload.as_ref())));
         match done {
-            Ok(emitted) => self.print(&emitted),
+            Ok(written) => print(&written),
             Err(failure) => {
                 // If standard error is gone, there is nobody to tell; the exit code still does.
                 let _ = writeln!(io::stderr(), "{}", failure.message);
@@ -72,7 +81,7 @@ impl Command {
         }
     }
 
-    fn write(&self) -> Result<Emitted, Failure> {
+    fn write(&self) -> Result<Written, Failure> {
         let args = Args::of_scene(self.scene.clone(), self.format, self.size, self.shading, self.eyelight);
         let loaded = load(&self.scene, &args)?;
         let inputs = loaded.textures().chain(std::iter::once(self.scene.clone()));
@@ -84,9 +93,29 @@ impl Command {
                 self.output.display()
             )));
         }
-        let emitted = emit(&loaded.scene, &self.origin()).map_err(|fault| Failure::scene(&self.scene, &fault))?;
-        files::stage(&self.output, emitted.text.clone().into_bytes())?.commit()?;
-        Ok(emitted)
+        let (text, lines) = self.emitted(&loaded)?;
+        files::stage(&self.output, text.into_bytes())?.commit()?;
+        Ok(Written(lines))
+    }
+
+    /// The file, and what is told of it.
+    fn emitted(&self, loaded: &Loaded) -> Result<(String, Vec<String>), Failure> {
+        let failure = |fault| Failure::scene(&self.scene, &fault);
+        if self.mesh {
+            let (Format::Obj, Scene::Iv(scene)) = (loaded.format, &loaded.scene) else {
+                let message = format!(
+                    "{}: --mesh is for OBJ files, this one is {}",
+                    self.scene.display(),
+                    loaded.format
+                );
+                return Err(Failure::bad(message));
+            };
+            let mesh = Mesh::new(&scene.model, scene.shading).map_err(failure)?;
+            let EmittedMesh { text, lines } = mesh.emit(&self.origin(), (scene.width, scene.height));
+            return Ok((text, lines));
+        }
+        let emitted = emit(&loaded.scene, &self.origin()).map_err(failure)?;
+        Ok((emitted.text, emitted.requirements.lines()))
     }
 
     /// The command as it would be typed in the scene's folder; whatever the names hold, one line.
@@ -105,22 +134,24 @@ impl Command {
         if self.eyelight {
             origin += " --eyelight";
         }
+        if self.mesh {
+            origin += " --mesh";
+        }
         origin
     }
+}
 
-    fn print(&self, emitted: &Emitted) -> Exit {
-        let mut out = io::stdout().lock();
-        let lines = emitted.requirements.lines();
-        let printed = lines
-            .iter()
-            .try_for_each(|line| writeln!(out, "{line}"))
-            .and_then(|()| out.flush());
-        match printed {
-            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-                let _ = writeln!(io::stderr(), "cannot write to standard output: {error}");
-                Exit::Files
-            }
-            _ => Exit::Within,
+fn print(Written(lines): &Written) -> Exit {
+    let mut out = io::stdout().lock();
+    let printed = lines
+        .iter()
+        .try_for_each(|line| writeln!(out, "{line}"))
+        .and_then(|()| out.flush());
+    match printed {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            let _ = writeln!(io::stderr(), "cannot write to standard output: {error}");
+            Exit::Files
         }
+        _ => Exit::Within,
     }
 }

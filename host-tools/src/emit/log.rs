@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fixel::screen::{Center, Shape, SubPx};
-use fixel::varying::{Linear, LinearFan, Perspective};
+use fixel::varying::{Linear, LinearFan, Perspective, Perspective32, PerspectiveSpans};
 
 use super::drawing::{self, Corner, Draw, Drawing, Lights, ONE_W, Program, Varying};
 use crate::picture::Picture;
@@ -125,6 +125,20 @@ impl<const N: usize> Read for LinearFan<N> {
     const KIND: Varying = Varying::Linear;
     fn read(self) -> (Vec<i32>, Vec<i32>, i32) {
         Linear(self.0).read()
+    }
+}
+
+impl<const N: usize, const BOUND: u32> Read for PerspectiveSpans<N, BOUND> {
+    const KIND: Varying = Varying::Perspective;
+    fn read(self) -> (Vec<i32>, Vec<i32>, i32) {
+        self.0.read()
+    }
+}
+
+impl<const N: usize> Read for Perspective32<N> {
+    const KIND: Varying = Varying::Perspective;
+    fn read(self) -> (Vec<i32>, Vec<i32>, i32) {
+        self.0.read()
     }
 }
 

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! A scene does not move, so that all that the core does before the screen is done once, here, by the core: matrices,
-//! clipping, subdivision. What is emitted is drawn from the screen on.
+//! clipping, subdivision. What is emitted is drawn from the screen on. A [`mesh`] does move, and is emitted before all that.
 
 mod analyse;
 pub mod command;
@@ -17,6 +17,7 @@ pub mod drawing;
 mod evaluate;
 pub mod harness;
 pub mod log;
+pub mod mesh;
 mod replay;
 mod write;
 

@@ -10,6 +10,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use crate::compare::{Class, Comparison};
+use crate::fixed::dials::Dials;
 use crate::picture::Picture;
 use crate::render::render;
 use crate::scene::{Scene, hw2};
@@ -66,7 +67,7 @@ pub fn outcome(text: &str) -> Outcome {
     let parsed = hw2::parse_with(text.as_bytes(), &mut |_| Ok(()));
     let drawn = parsed.and_then(|mut scene| {
         scene.textures.insert("tile.png".to_owned(), texture);
-        render(&Scene::Hw2(scene))
+        render(&Scene::Hw2(scene), Dials::default())
     });
     match drawn {
         Ok(rendered) => Outcome::Drawn(errors(&rendered.fixed, &rendered.reference, &rendered.comparison)),

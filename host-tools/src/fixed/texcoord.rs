@@ -5,7 +5,7 @@ use fixel::num::{Block, Scaled};
 /// How many whole textures may be taken off coordinates without changing what they pick.
 pub type Periods = fn(Block<i64, 3>) -> i64;
 
-/// Corners' texture coordinates in texels, and the number of fraction bits: as many as fit. A whole number of textures,
+/// Corners' texture coordinates in texels, and the number of fraction bits: as many as fit, at most `most_bits`, less the headroom. A whole number of textures,
 /// common to the corners, is taken off first.
 ///
 /// # Errors
@@ -14,6 +14,7 @@ pub fn texels(
     corners: [[Scaled<i64>; 2]; 3],
     size: [u16; 2],
     headroom: u32,
+    most_bits: i32,
     periods: Periods,
 ) -> Result<([[i32; 2]; 3], u32), String> {
     let [[sa, ta], [sb, tb], [sc, tc]] = corners;
@@ -32,10 +33,15 @@ pub fn texels(
     if fraction_bits < 0 {
         return Err("texture coordinates of one triangle that are more than 2^31 texels apart".into());
     }
-    let fraction_bits = (fraction_bits - headroom as i32).max(0);
+    let fraction_bits = (fraction_bits - headroom as i32).max(0).min(most_bits);
     let [[sa, sb, sc], [ta, tb, tc]] = [s, t].map(|axis| axis.split().map(|c| nearest(c, fraction_bits)));
     Ok(([[sa, ta], [sb, tb], [sc, tc]], fraction_bits as u32))
 }
+
+/// The most fraction bits that there are.
+pub const FINE: i32 = 30;
+/// The most where subspans may be wrong by half a texel, which they take to be 2^15 units.
+pub const IN_SPANS: i32 = 16;
 
 /// The whole number that is nearest to the middle between the least and the largest: where rounding is the same everywhere.
 pub fn middle(coordinates: Block<i64, 3>) -> i64 {
@@ -87,9 +93,9 @@ mod tests {
 
     #[test]
     fn whole_textures_are_taken_off() {
-        let (near, bits) = texels(corners([0.0, 1.0, 0.5], [0.0, 0.25, 1.0]), [8, 5], 0, middle).unwrap();
+        let (near, bits) = texels(corners([0.0, 1.0, 0.5], [0.0, 0.25, 1.0]), [8, 5], 0, FINE, middle).unwrap();
         let far = corners([1e6, 1e6 + 1.0, 1e6 + 0.5], [-7.0, -6.75, -6.0]);
-        let (far, same) = texels(far, [8, 5], 0, middle).unwrap();
+        let (far, same) = texels(far, [8, 5], 0, FINE, middle).unwrap();
         // 8 texels are 2^61 · 2^-58: taken for less than 2^4, they get 26 bits of 30.
         assert_eq!((bits, same), (26, 26));
         for (near, far) in near.into_iter().zip(far) {
@@ -116,7 +122,7 @@ mod tests {
 
     #[test]
     fn coordinates_that_do_not_fit_are_refused() {
-        assert!(texels(corners([0.0, 1e12, 0.0], [0.0; 3]), [8, 8], 0, middle).is_err());
-        assert!(texels(corners([1e300; 3], [0.0; 3]), [8, 8], 0, middle).is_err());
+        assert!(texels(corners([0.0, 1e12, 0.0], [0.0; 3]), [8, 8], 0, FINE, middle).is_err());
+        assert!(texels(corners([1e300; 3], [0.0; 3]), [8, 8], 0, FINE, middle).is_err());
     }
 }

@@ -5,6 +5,7 @@
 mod chart;
 mod errors;
 mod requires;
+mod tradeoff;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
@@ -17,6 +18,7 @@ use crate::maps;
 use crate::picture::Picture;
 use crate::png;
 use crate::report::Report;
+use crate::sweep::Sweep;
 use errors::Errors;
 
 /// A scene's part of the page.
@@ -52,11 +54,16 @@ pub fn page(command: &str, sections: &[Result<&Section, &Failure>]) -> String {
     page.into_string()
 }
 
-/// The part of one scene, of the core's picture and the reference's.
+/// The part of one scene, of the core's picture and the reference's; and what speed costs in accuracy, if that was asked for.
 ///
 /// # Errors
 /// A picture that cannot be made into a PNG.
-pub fn section(loaded: &Loaded, [fixed, reference]: [&Picture; 2], report: &Report) -> Result<Section, Failure> {
+pub fn section(
+    loaded: &Loaded,
+    [fixed, reference]: [&Picture; 2],
+    report: &Report,
+    sweep: Option<&Sweep>,
+) -> Result<Section, Failure> {
     let (width, height) = fixed.size();
     let found = &report.comparison;
     let errors = Errors::new(fixed, reference, &found.classes);
@@ -75,6 +82,10 @@ pub fn section(loaded: &Loaded, [fixed, reference]: [&Picture; 2], report: &Repo
                 (chart::histogram(&errors))
                 (chart::cumulative(&errors))
             }
+            @if let Some(sweep) = sweep {
+                (tradeoff::tradeoff(sweep))
+            }
+            (requires::features(loaded))
             (requires::table(loaded, width, height))
             details open[loaded.text.len() < 4000] {
                 summary { "Scene text" }

@@ -54,6 +54,16 @@ impl Folder {
         )
     }
 
+    /// As [`run`](Self::run), where no other program is to be found.
+    #[allow(dead_code)]
+    pub fn run_alone(&self, arguments: &str) -> Run {
+        self.finish(
+            Command::new(env!("CARGO_BIN_EXE_host-render"))
+                .args(arguments.split_whitespace())
+                .env("PATH", ""),
+        )
+    }
+
     fn finish(&self, command: &mut Command) -> Run {
         let Output { status, stdout, stderr } =
             command.current_dir(self.0.path()).output().expect("the program starts");

@@ -9,7 +9,7 @@ pub mod kinds;
 mod lights;
 mod program;
 mod shapes;
-mod tables;
+pub(super) mod tables;
 mod uses;
 
 use super::drawing::{Drawing, Nearer, Paint, Pixels, Program, Varying};

@@ -138,7 +138,8 @@ fn push_faces(sorted: &Sorted<'_>, kind: &Kind, number: usize, batch: &Batch, co
     push_table(&sorted.table(number, kind), of, count, items.into_iter(), code);
 }
 
-fn push_table(name: &str, of: &str, count: usize, items: impl Iterator<Item = impl Display>, code: &mut String) {
+/// A table of `count` items, as many on a line as have room.
+pub fn push_table(name: &str, of: &str, count: usize, items: impl Iterator<Item = impl Display>, code: &mut String) {
     let _ = writeln!(code, "#[rustfmt::skip]\nstatic {name}: [{of}; {count}] = [");
     let mut line = String::from("   ");
     for item in items {

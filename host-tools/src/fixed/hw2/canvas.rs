@@ -5,13 +5,16 @@ use fixel::depth::{DepthBuffer, FAR, LessOrEqual};
 use fixel::draw;
 use fixel::fragment::Fragment;
 use fixel::num::{Block, Word};
+use fixel::span::doubled_area;
 use fixel::target::Buffer;
 use fixel::view::{Carried, Vertex, View};
 use fixel::window::Window;
 
 use crate::emit::drawing::Program;
 use crate::emit::log::{Log, Read};
-use crate::fixed::{FixedPicture, Pixel};
+use crate::fixed::dials::Dials;
+use crate::fixed::outline::{Outline, Outlined};
+use crate::fixed::{FixedPicture, Pixel, shader};
 
 /// Clip planes that a scene may set.
 const PLANES: usize = 256;
@@ -20,11 +23,13 @@ const PLANES: usize = 256;
 pub struct Canvas<W> {
     /// Projection and culling. Without clip planes, so that scenes without them do not pay for their room.
     pub view: View<i64, W, 0>,
-    planes: Planes<i64, PLANES>,
-    has_planes: bool,
+    /// The same with clip planes, as soon as there are any.
+    cut: Option<Box<View<i64, W, PLANES>>>,
     window: Window,
     pixels: Vec<Pixel>,
     depths: Vec<u16>,
+    /// How accurately.
+    pub dials: Dials,
     /// What is drawn is written down, if somebody wants it.
     pub log: Option<Log>,
 }
@@ -35,11 +40,11 @@ impl<W: Word> Canvas<W> {
         let size = window.width() * window.height();
         Canvas {
             view,
-            planes: Planes::default(),
-            has_planes: false,
+            cut: None,
             window,
             pixels: vec![Pixel::default(); size],
             depths: vec![FAR; size],
+            dials: Dials::default(),
             log: None,
         }
     }
@@ -57,8 +62,9 @@ impl<W: Word> Canvas<W> {
     /// # Errors
     /// Where there is no room for it.
     pub fn clip(&mut self, plane: Block<i64, 4>) -> Result<(), String> {
-        self.has_planes = true;
-        self.planes.push(plane).map_err(|e| format!("{e} ({PLANES})"))
+        let view = &self.view;
+        let cut = self.cut.get_or_insert_with(|| Box::new(with_room(view)));
+        cut.planes.push(plane).map_err(|e| format!("{e} ({PLANES})"))
     }
 
     /// Whether some of the points have w < 0 on the screen and some w > 0.
@@ -68,33 +74,6 @@ impl<W: Word> Canvas<W> {
             w
         });
         w.iter().any(|&w| w < 0) && w.iter().any(|&w| w > 0)
-    }
-
-    /// Draws one triangle, given in eye space.
-    pub fn draw<F>(&mut self, eye: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
-    where
-        F: Fragment<Pixel = Pixel, Varying: Carried + Read>,
-    {
-        let ([a, b, c], [u, v, w]) = (eye, carried);
-        let corners = [(a, u), (b, v), (c, w)].map(|(position, carried)| Vertex { position, carried });
-        let color = Buffer::strip(&mut self.pixels, self.window);
-        let depth = Buffer::strip(&mut self.depths, self.window);
-        if let (Ok(mut color), Ok(depth)) = (color, depth) {
-            let mut depth = DepthBuffer::<_, LessOrEqual>::new(depth);
-            if self.has_planes {
-                let view = with_planes(&self.view, self.planes.clone());
-                draw::primitive(&view, &mut color, &mut depth, &corners, fragment);
-                if let Some(log) = &mut self.log {
-                    view.project::<F::Varying>(&corners, |polygon| log.polygon(polygon));
-                }
-            } else {
-                draw::primitive(&self.view, &mut color, &mut depth, &corners, fragment);
-                if let Some(log) = &mut self.log {
-                    self.view
-                        .project::<F::Varying>(&corners, |polygon| log.polygon(polygon));
-                }
-            }
-        }
     }
 
     /// What was drawn, and what was written down.
@@ -109,13 +88,66 @@ impl<W: Word> Canvas<W> {
     }
 }
 
-fn with_planes<W: Word>(view: &View<i64, W, 0>, planes: Planes<i64, PLANES>) -> View<i64, W, PLANES> {
+impl<W: Word> shader::Canvas for Canvas<W> {
+    type Narrow = Canvas<i32>;
+
+    fn dials(&self) -> Dials {
+        self.dials
+    }
+
+    fn paint<F>(&mut self, eye: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
+    where
+        F: Fragment<Pixel = Pixel, Varying: Carried>,
+    {
+        let corners = corners(eye, carried);
+        let color = Buffer::strip(&mut self.pixels, self.window);
+        let depth = Buffer::strip(&mut self.depths, self.window);
+        if let (Ok(mut color), Ok(depth)) = (color, depth) {
+            let mut depth = DepthBuffer::<_, LessOrEqual>::new(depth);
+            // As `draw::primitive`, but that its rows are compiled once for both views.
+            let mut polygon = |shape: &dyn Outlined<F::Varying>| {
+                let shape = &Outline(shape);
+                draw::polygon::<W, _, _, _, _>(&mut color, &mut depth, shape, doubled_area(shape), fragment);
+            };
+            if let Some(view) = &mut self.cut {
+                follow(view, &self.view);
+                view.project::<F::Varying>(&corners, |shape| polygon(shape));
+            } else {
+                self.view.project::<F::Varying>(&corners, |shape| polygon(shape));
+            }
+        }
+    }
+
+    fn record<V: Carried + Read>(&mut self, eye: [Block<i64, 4>; 3], carried: [V::Vertex; 3]) {
+        let Some(log) = &mut self.log else { return };
+        let corners = corners(eye, carried);
+        if let Some(view) = &mut self.cut {
+            follow(view, &self.view);
+            view.project::<V>(&corners, |polygon| log.polygon(polygon));
+        } else {
+            self.view.project::<V>(&corners, |polygon| log.polygon(polygon));
+        }
+    }
+}
+
+fn corners<C>([a, b, c]: [Block<i64, 4>; 3], [u, v, w]: [C; 3]) -> [Vertex<i64, C>; 3] {
+    [(a, u), (b, v), (c, w)].map(|(position, carried)| Vertex { position, carried })
+}
+
+/// A view with room for clip planes.
+fn with_room<W: Word>(view: &View<i64, W, 0>) -> View<i64, W, PLANES> {
     View {
         projection: view.projection,
-        planes,
+        planes: Planes::default(),
         viewport: view.viewport,
         depth_range: view.depth_range,
         behind: view.behind,
         cull: view.cull,
     }
+}
+
+/// What a scene may have changed since.
+fn follow<W: Word>(cut: &mut View<i64, W, PLANES>, view: &View<i64, W, 0>) {
+    cut.projection = view.projection;
+    cut.cull = view.cull;
 }

@@ -1,14 +1,13 @@
 //! Fragment programs, put together from parts: a surface, where its normal comes from, whether it knows its place, and how
 //! it shines. A program carries the values of its parts and nothing else: the surface's first, then normal and place.
 
-use fixel::fragment::Fragment;
 use fixel::light::{Finish, Lit};
 use fixel::num::power;
 use fixel::texture::{Floor, Nearest, Rgba8888};
-use fixel::varying::Perspective;
 
 use super::lamps::BULBS;
 use crate::fixed::Pixel;
+use crate::fixed::shader::Shader;
 use crate::lower;
 
 /// Values that are still to be taken.
@@ -105,7 +104,7 @@ fn take<const N: usize>(values: Rest<'_>) -> ([i32; N], Rest<'_>) {
 }
 
 /// A surface in its own colours, in units of 2^(shift − 16) levels.
-pub struct Unlit<S, const K: usize> {
+pub struct Unlit<S> {
     /// The surface.
     pub surface: S,
     /// Of the colours' unit.
@@ -114,19 +113,39 @@ pub struct Unlit<S, const K: usize> {
     pub primitive: u32,
 }
 
-impl<S: Surface, const K: usize> Fragment for Unlit<S, K> {
-    type Varying = Perspective<K>;
-    type Pixel = Pixel;
-
+impl<S: Surface, const K: usize> Shader<K> for Unlit<S> {
     #[inline]
-    fn shade(&self, values: [i32; K], _below: Pixel) -> Option<Pixel> {
+    fn shaded(&self, values: [i32; K]) -> Pixel {
         let (color, _) = self.surface.color(&values);
-        Some(pixel(color.map(i64::from), self.shift, self.primitive))
+        pixel(color.map(i64::from), self.shift, self.primitive)
+    }
+}
+
+/// A surface in light that was computed at the corners: the surface's values first, then the light's, where 2^16 is full.
+pub struct InGivenLight<S> {
+    /// The surface.
+    pub surface: S,
+    /// What is lit is in units of 2^(shift − 16) levels.
+    pub shift: i32,
+    /// Stored with every pixel.
+    pub primitive: u32,
+}
+
+impl<S: Surface, const K: usize> Shader<K> for InGivenLight<S> {
+    #[inline]
+    fn shaded(&self, values: [i32; K]) -> Pixel {
+        let (color, rest) = self.surface.color(&values);
+        let (light, _) = take::<3>(rest);
+        let mut lit = [0; 3];
+        for ((lit, color), light) in lit.iter_mut().zip(color).zip(light) {
+            *lit = (i64::from(color) * i64::from(light)) >> 16;
+        }
+        pixel(lit, self.shift, self.primitive)
     }
 }
 
 /// A surface under lights, with normals from `N`, places from `P` and the finish `F`.
-pub struct UnderLight<'a, S, N, P, F, const K: usize> {
+pub struct UnderLight<'a, S, N, P, F> {
     /// The surface.
     pub surface: S,
     /// Where normals come from.
@@ -143,17 +162,14 @@ pub struct UnderLight<'a, S, N, P, F, const K: usize> {
     pub primitive: u32,
 }
 
-impl<S: Surface, N: Vector, P: Vector, F: Finish, const K: usize> Fragment for UnderLight<'_, S, N, P, F, K> {
-    type Varying = Perspective<K>;
-    type Pixel = Pixel;
-
+impl<S: Surface, N: Vector, P: Vector, F: Finish, const K: usize> Shader<K> for UnderLight<'_, S, N, P, F> {
     #[inline]
-    fn shade(&self, values: [i32; K], _below: Pixel) -> Option<Pixel> {
+    fn shaded(&self, values: [i32; K]) -> Pixel {
         let (color, rest) = self.surface.color(&values);
         let (normal, rest) = self.normal.vector(rest);
         let (place, _) = self.place.vector(rest);
         let lit = self.lit.shade_wide(normal, place, color, &self.finish);
-        Some(pixel(lit, self.shift, self.primitive))
+        pixel(lit, self.shift, self.primitive)
     }
 }
 

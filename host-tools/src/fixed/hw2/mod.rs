@@ -15,6 +15,7 @@ use crate::backend::{BackEnd, Patch, Surface, Vertex};
 use crate::emit::drawing::{Drawing, Nearer, Pixels};
 use crate::emit::log::Log;
 use crate::fixed::FixedPicture;
+use crate::fixed::dials::Dials;
 use crate::picture::Picture;
 
 mod canvas;
@@ -32,6 +33,8 @@ pub struct Fixed(Box<dyn Renderer>);
 trait Renderer: BackEnd {
     /// From now on what is drawn is written down.
     fn record(&mut self, log: Log);
+    /// From now on the dials are set so.
+    fn set(&mut self, dials: Dials);
     fn finish(self: Box<Self>) -> (FixedPicture, Option<Log>);
 }
 
@@ -65,6 +68,13 @@ impl Fixed {
         let size = |v: u32| u16::try_from(v).expect("a scene's picture has at most 16384 pixels a side");
         let viewport = Viewport::<W>::new(0, 0, size(width), size(height)).expect("the word was chosen by the size");
         Fixed(Box::new(scene::Scene::new(viewport, window)))
+    }
+
+    /// With the dials set so. Beyond [`dials::LARGEST`](crate::fixed::dials::LARGEST) pixels a side, where edges are wider,
+    /// that of perspective stays exact.
+    pub fn with(mut self, dials: Dials) -> Self {
+        self.0.set(dials);
+        self
     }
 
     /// What was drawn.

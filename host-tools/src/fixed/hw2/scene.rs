@@ -20,6 +20,7 @@ use super::shade::{self, Look, Paint};
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
 use crate::emit::log::Log;
 use crate::fixed::FixedPicture;
+use crate::fixed::dials::Dials;
 use crate::lower;
 use crate::picture::Picture;
 
@@ -273,6 +274,10 @@ impl<W: Word> BackEnd for Scene<W> {
 impl<W: Word> Renderer for Scene<W> {
     fn record(&mut self, log: Log) {
         self.canvas.log = Some(log);
+    }
+
+    fn set(&mut self, dials: Dials) {
+        self.canvas.dials = dials;
     }
 
     fn finish(self: Box<Self>) -> (FixedPicture, Option<Log>) {

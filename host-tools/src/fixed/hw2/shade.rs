@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use fixel::fragment::{Flat, Fragment};
-use fixel::light::{Finish, Lit, Matte};
+use fixel::fragment::Flat;
+use fixel::light::{Finish, Lit, Matte, Shiny};
 use fixel::num::Word;
 use fixel::texture::{Rgba8888, Texture};
 
@@ -11,10 +11,13 @@ use super::canvas::Canvas;
 use super::corner::{self, Corner};
 use super::lamps::{AtScale, BULBS, Lamps};
 use super::material::{
-    Decal, Gouraud, Interpolated, Plain, Polished, Same, Sampler, Surface, Textured, UnderLight, Unlit, Vector, pixel,
+    Decal, Gouraud, InGivenLight, Interpolated, Plain, Polished, Same, Sampler, Surface, Textured, UnderLight, Unlit,
+    Vector, pixel,
 };
 use crate::emit::drawing::{self, Lights, Program, Sampled};
 use crate::emit::log::Log;
+use crate::fixed::dials::{Lighting, Perspective};
+use crate::fixed::shader::{Canvas as _, Shader};
 use crate::fixed::{Pixel, texcoord};
 use crate::picture::Picture;
 
@@ -60,6 +63,10 @@ struct Work<'a, W> {
 /// beyond 2^31 they saturate, each by itself, which turns directions. A normal or a texel is right up to 2^11 of the range.
 const HEADROOM: u32 = 10;
 
+/// Bits that values are coarser by where subspans may be wrong by a certain number of units: by half a level of a lit colour, by
+/// 2^-9 of a normal.
+const SPANS_HEADROOM: u32 = 6;
+
 /// What light needs to know of a triangle.
 #[derive(Clone, Copy)]
 struct Light<'a> {
@@ -93,6 +100,22 @@ impl<'a> Light<'a> {
     }
 }
 
+/// What corners may carry of their light: 2^10 times as much is left for what lies outside their range where w has both signs.
+const LIGHT_BITS: u32 = 30 - HEADROOM;
+
+impl Light<'_> {
+    /// What is lit at the corners, in a unit 2^down times as large, and down.
+    fn at_corners<F: Finish>(&self, corners: &[Corner; 3], surface: [[i32; 3]; 3], finish: &F) -> ([[i32; 3]; 3], i32) {
+        let lit: [_; 3] = std::array::from_fn(|i| {
+            let normal = self.flat_normal.or(corners[i].normal).unwrap_or_default();
+            self.lit.shade_wide(normal, self.places[i], surface[i], finish)
+        });
+        let all_bits = lit.as_flattened().iter().fold(0, |bits, c| bits | c.unsigned_abs());
+        let down = (u64::BITS - all_bits.leading_zeros()).saturating_sub(LIGHT_BITS);
+        (lit.map(|color| color.map(|c| (c >> down) as i32)), down as i32)
+    }
+}
+
 /// Draws one triangle.
 ///
 /// # Errors
@@ -104,11 +127,13 @@ pub fn triangle<W: Word>(
     corners: &[Corner; 3],
     primitive: u32,
 ) -> Result<(), String> {
-    let headroom = if canvas.divides_by_both_signs(corners.map(|c| c.eye)) {
-        HEADROOM
-    } else {
-        0
+    let in_spans = canvas.dials.perspective == Perspective::Spans;
+    let headroom = match (canvas.divides_by_both_signs(corners.map(|c| c.eye)), in_spans) {
+        (true, _) => HEADROOM,
+        (false, true) => SPANS_HEADROOM,
+        (false, false) => 0,
     };
+    let most_bits = if in_spans { texcoord::IN_SPANS } else { texcoord::FINE };
     // Colours that are not lit saturate beyond 64 times full, and full is where their bytes end.
     let interpolated = matches!(look.paint, Paint::Gouraud | Paint::Decal(_));
     let lit = interpolated && !lights.lamps().is_empty();
@@ -124,6 +149,11 @@ pub fn triangle<W: Word>(
         primitive,
         light: Light::new(lights, look.flat_normal, corners, headroom),
     };
+    if work.canvas.dials.lighting == Lighting::Vertex
+        && let Some(light) = work.light
+    {
+        return work.lit_at_corners(light, headroom);
+    }
     let colors = corners.map(|c| c.color);
     match look.paint {
         Paint::Plain(color) => work.plain(color),
@@ -132,20 +162,15 @@ pub fn triangle<W: Word>(
             work.surface::<_, 3, 6, 9>(Gouraud, colors);
         }
         Paint::Textured(texture) => {
-            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom)?;
+            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom, most_bits)?;
             work.describe(|log| drawing::Surface::Textured(look.sampled(log, fraction_bits)));
             work.surface::<_, 2, 5, 8>(Textured(sampler), st);
         }
         Paint::Decal(texture) => {
-            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom)?;
+            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom, most_bits)?;
             let shift = look.shift.unsigned_abs();
             work.describe(|log| drawing::Surface::Decal(look.sampled(log, fraction_bits), shift));
-            let mut st = st.into_iter();
-            let carried = colors.map(|[r, g, b]| {
-                let [s, t] = st.next().unwrap_or_default();
-                [r, g, b, s, t]
-            });
-            work.surface::<_, 5, 8, 11>(Decal { sampler, shift }, carried);
+            work.surface::<_, 5, 8, 11>(Decal { sampler, shift }, side_by_side(colors, st));
         }
     }
     Ok(())
@@ -156,11 +181,13 @@ fn sampler<'t>(
     texture: Texture<'t, Rgba8888>,
     corners: &[Corner; 3],
     headroom: u32,
+    most_bits: i32,
 ) -> Result<([[i32; 2]; 3], Sampler<'t>, u32), String> {
     let (st, fraction_bits) = texcoord::texels(
         corners.map(|corner| corner.texcoord),
         [texture.width(), texture.height()],
         headroom,
+        most_bits,
         texcoord::middle,
     )?;
     Ok((st, Sampler::new(texture, fraction_bits), fraction_bits))
@@ -218,17 +245,71 @@ impl<W: Word> Work<'_, W> {
         self.canvas.draw(self.corners.map(|c| c.eye), [(); 3], &Flat(pixel));
     }
 
+    /// Light computed at the corners.
+    fn lit_at_corners(self, light: Light<'_>, headroom: u32) -> Result<(), String> {
+        let colors = self.corners.map(|c| c.color);
+        match self.look.paint {
+            Paint::Plain(color) => self.lit_colors(light, [color; 3]),
+            Paint::Gouraud => self.lit_colors(light, colors),
+            Paint::Textured(texture) => {
+                let (st, sampler, _) = sampler(texture, self.corners, headroom, texcoord::FINE)?;
+                self.in_given_light::<_, 2, 5>(light, Textured(sampler), st);
+            }
+            Paint::Decal(texture) => {
+                let (st, sampler, _) = sampler(texture, self.corners, headroom, texcoord::FINE)?;
+                let shift = self.look.shift.unsigned_abs();
+                self.in_given_light::<_, 5, 8>(light, Decal { sampler, shift }, side_by_side(colors, st));
+            }
+        }
+        Ok(())
+    }
+
+    /// The corners' colours are lit.
+    fn lit_colors(self, light: Light<'_>, colors: [[i32; 3]; 3]) {
+        let (colors, down) = match self.look.shininess {
+            Some(exponent) => light.at_corners(self.corners, colors, &Polished::new(exponent, self.look.shift)),
+            None => light.at_corners(self.corners, colors, &Matte),
+        };
+        let program = Unlit {
+            surface: Gouraud,
+            shift: self.look.shift.saturating_add(light.lamps.shift()) + down,
+            primitive: self.primitive,
+        };
+        self.draw(colors, &program);
+    }
+
+    /// A surface whose corners carry A values, in the light at the corners; B are 3 more.
+    fn in_given_light<S: Surface, const A: usize, const B: usize>(
+        self,
+        light: Light<'_>,
+        surface: S,
+        carried: [[i32; A]; 3],
+    ) {
+        let full = [[1 << 16; 3]; 3];
+        let (lights, down) = match self.look.shininess {
+            Some(exponent) => light.at_corners(self.corners, full, &Shiny(exponent)),
+            None => light.at_corners(self.corners, full, &Matte),
+        };
+        let program = InGivenLight {
+            surface,
+            shift: self.look.shift.saturating_add(light.lamps.shift()) + down,
+            primitive: self.primitive,
+        };
+        let values = std::array::from_fn(|i| joined([&carried[i], &lights[i], &[]]));
+        self.draw::<_, B>(values, &program);
+    }
+
     /// A surface whose corners carry A values; B are 3 more, C are 6 more.
     fn surface<S: Surface, const A: usize, const B: usize, const C: usize>(self, surface: S, carried: [[i32; A]; 3]) {
         if let Some(light) = self.light {
             return self.lit::<S, A, B, C>(light, surface, carried);
         }
-        let program = Unlit::<S, A> {
+        let program = Unlit {
             surface,
             shift: self.look.shift,
             primitive: self.primitive,
         };
-        self.canvas.draw(self.corners.map(|c| c.eye), carried, &program);
+        self.draw(carried, &program);
     }
 
     /// The same under lights.
@@ -276,7 +357,7 @@ impl<W: Word> Work<'_, W> {
         P: Vector,
         F: Finish,
     {
-        let program = UnderLight::<S, N, P, F, K> {
+        let program = UnderLight {
             surface,
             normal,
             place,
@@ -286,8 +367,8 @@ impl<W: Word> Work<'_, W> {
             primitive: self.primitive,
         };
         if K == 0 {
-            let pixel = program.shade([0; K], Pixel::default());
-            return self.flat(pixel.unwrap_or_default());
+            let pixel = program.shaded([0; K]);
+            return self.flat(pixel);
         }
         let values = std::array::from_fn(|i| {
             let normal: &[i32] = match (light.flat_normal, &self.corners[i].normal) {
@@ -296,8 +377,17 @@ impl<W: Word> Work<'_, W> {
             };
             joined([&carried[i], normal, &light.places[i]])
         });
-        self.canvas.draw(self.corners.map(|c| c.eye), values, &program);
+        self.draw::<_, K>(values, &program);
     }
+
+    fn draw<S: Shader<K>, const K: usize>(self, values: [[i32; K]; 3], shader: &S) {
+        self.canvas.draw_shaded(self.corners.map(|c| c.eye), values, shader);
+    }
+}
+
+/// Colours and texture coordinates of the corners.
+fn side_by_side(colors: [[i32; 3]; 3], st: [[i32; 2]; 3]) -> [[i32; 5]; 3] {
+    std::array::from_fn(|i| joined([&colors[i], &st[i], &[]]))
 }
 
 /// The first K of all the values.

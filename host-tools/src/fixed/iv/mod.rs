@@ -17,7 +17,8 @@ use fixel::window::Window;
 
 use crate::emit::drawing::{Drawing, Nearer, Pixels, Program};
 use crate::emit::log::{Log, Read};
-use crate::fixed::{FixedPicture, Pixel};
+use crate::fixed::dials::Dials;
+use crate::fixed::{FixedPicture, Pixel, shader};
 use crate::lower;
 use crate::scene::Fault;
 use crate::scene::iv::{Camera, Scene};
@@ -34,7 +35,20 @@ pub use words::words;
 /// # Errors
 /// A fault of the whole scene where its values do not fit the core.
 pub fn draw(scene: &Scene) -> Result<FixedPicture, Fault> {
-    draw_part(scene, Window::new(0, 0, scene.width as i32, scene.height as i32))
+    draw_with(scene, Dials::default())
+}
+
+/// The scene's picture with the dials set as given, where edges of 32 bits do.
+///
+/// # Errors
+/// As [`draw()`].
+pub fn draw_with(scene: &Scene, dials: Dials) -> Result<FixedPicture, Fault> {
+    let window = Window::new(0, 0, scene.width as i32, scene.height as i32);
+    if dials.are_exact() {
+        return draw_part(scene, window);
+    }
+    let (picture, _) = logged::<i32>(scene, window, dials, None)?;
+    Ok(picture)
 }
 
 /// The part `window` of it: what a strip or a tile holds.
@@ -68,9 +82,9 @@ pub fn recorded(scene: &Scene) -> Result<(FixedPicture, Option<Drawing>), Fault>
         draws: Vec::new(),
     });
     let (picture, log) = if wide {
-        logged::<i64>(scene, window, Some(log))?
+        logged::<i64>(scene, window, Dials::default(), Some(log))?
     } else {
-        logged::<i32>(scene, window, Some(log))?
+        logged::<i32>(scene, window, Dials::default(), Some(log))?
     };
     Ok((picture, log.map(Log::finish)))
 }
@@ -80,11 +94,16 @@ pub fn recorded(scene: &Scene) -> Result<(FixedPicture, Option<Drawing>), Fault>
 /// # Errors
 /// As [`draw()`], and where the picture does not fit the word.
 pub fn with_word<W: Word>(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
-    let (picture, _) = logged::<W>(scene, window, None)?;
+    let (picture, _) = logged::<W>(scene, window, Dials::default(), None)?;
     Ok(picture)
 }
 
-fn logged<W: Word>(scene: &Scene, window: Window, log: Option<Log>) -> Result<(FixedPicture, Option<Log>), Fault> {
+fn logged<W: Word>(
+    scene: &Scene,
+    window: Window,
+    dials: Dials,
+    log: Option<Log>,
+) -> Result<(FixedPicture, Option<Log>), Fault> {
     let size = window.width() * window.height();
     let mut canvas = Canvas {
         view: view::<W>(scene).map_err(Fault::of_whole)?,
@@ -92,6 +111,7 @@ fn logged<W: Word>(scene: &Scene, window: Window, log: Option<Log>) -> Result<(F
         pixels: vec![Pixel::default(); size],
         depths: vec![FAR; size],
         primitives: 0,
+        dials,
         log,
     };
     for object in &scene.model.objects {
@@ -144,6 +164,8 @@ struct Canvas<W> {
     depths: Vec<u16>,
     /// Triangles so far.
     primitives: u32,
+    /// How accurately.
+    dials: Dials,
     /// What is drawn is written down, if somebody wants it.
     log: Option<Log>,
 }
@@ -156,23 +178,35 @@ impl<W: Word> Canvas<W> {
             log.program(program);
         }
     }
+}
 
-    /// Draws one triangle, given in the world.
-    fn draw<F>(&mut self, world: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
+impl<W: Word> shader::Canvas for Canvas<W> {
+    type Narrow = Canvas<i32>;
+
+    fn dials(&self) -> Dials {
+        self.dials
+    }
+
+    fn paint<F>(&mut self, world: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
     where
-        F: Fragment<Pixel = Pixel, Varying: Carried + Read>,
+        F: Fragment<Pixel = Pixel, Varying: Carried>,
     {
-        let ([a, b, c], [u, v, w]) = (world, carried);
-        let corners = [(a, u), (b, v), (c, w)].map(|(position, carried)| Vertex { position, carried });
         let color = Buffer::strip(&mut self.pixels, self.window);
         let depth = Buffer::strip(&mut self.depths, self.window);
         if let (Ok(mut color), Ok(depth)) = (color, depth) {
             let mut depth = DepthBuffer::<_, LessOrFar>::new(depth);
-            draw::primitive(&self.view, &mut color, &mut depth, &corners, fragment);
-        }
-        if let Some(log) = &mut self.log {
-            self.view
-                .project::<F::Varying>(&corners, |polygon| log.polygon(polygon));
+            draw::primitive(&self.view, &mut color, &mut depth, &corners(world, carried), fragment);
         }
     }
+
+    fn record<V: Carried + Read>(&mut self, world: [Block<i64, 4>; 3], carried: [V::Vertex; 3]) {
+        if let Some(log) = &mut self.log {
+            let corners = corners(world, carried);
+            self.view.project::<V>(&corners, |polygon| log.polygon(polygon));
+        }
+    }
+}
+
+fn corners<C>([a, b, c]: [Block<i64, 4>; 3], [u, v, w]: [C; 3]) -> [Vertex<i64, C>; 3] {
+    [(a, u), (b, v), (c, w)].map(|(position, carried)| Vertex { position, carried })
 }

@@ -9,6 +9,8 @@ use super::Canvas;
 use super::lamps::{self, LIGHTS, Surface};
 use super::shade::{self, Flat, Gouraud, Phong};
 use crate::emit::drawing::{Lights, Program};
+use crate::fixed::dials::Lighting;
+use crate::fixed::shader::Canvas as _;
 use crate::lower;
 use crate::scene::iv::{Object, Scene, Shading, Transform};
 
@@ -45,6 +47,10 @@ fn shaded<W: Word, S: Specular>(
     object: &Object,
     material: &Material<S>,
 ) -> Result<(), String> {
+    let shading = match (scene.shading, canvas.dials.lighting) {
+        (Shading::Phong, Lighting::Vertex) => Shading::Gouraud,
+        (shading, _) => shading,
+    };
     let (points, normals) = indices(object)?;
     let counts = [object.points.len(), object.normals.len()];
     let mesh = Mesh::<u32, 2>::new([&points, &normals], counts).map_err(|e| e.to_string())?;
@@ -60,7 +66,7 @@ fn shaded<W: Word, S: Specular>(
             normal: to_world.normal(object.normals[normal]),
             color: [0; 3],
         };
-        let color = if scene.shading == Shading::Gouraud {
+        let color = if shading == Shading::Gouraud {
             Gouraud::carried(lit(corner.place, corner.normal))
         } else {
             corner.color
@@ -68,7 +74,7 @@ fn shaded<W: Word, S: Specular>(
         Corner { color, ..corner }
     };
     let mut cache = Cache::<Corner, 2, CACHE>::default();
-    match scene.shading {
+    match shading {
         Shading::Flat => mesh.faces().for_each(|face| {
             let color = flat(&face, &mut cache, corner, &lights, material);
             canvas.describe(|_| Program::Flat(shade::pixel(color, 0).rgba));
@@ -104,7 +110,7 @@ fn shaded<W: Word, S: Specular>(
                         material,
                         primitive,
                     };
-                    canvas.draw(corners.map(|c| c.world), carried, &program);
+                    canvas.draw_shaded(corners.map(|c| c.world), carried, &program);
                 });
             });
         }

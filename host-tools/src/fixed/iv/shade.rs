@@ -3,9 +3,10 @@
 use fixel::fragment::Fragment;
 use fixel::light::world::{FULL, Material, PointLit, Specular};
 use fixel::num::Block;
-use fixel::varying::{Linear, Perspective};
+use fixel::varying::Linear;
 
 use crate::fixed::Pixel;
+use crate::fixed::shader::Shader;
 
 /// Bits that interpolated colours are finer than the core's results.
 pub const FINER: u32 = 2;
@@ -74,14 +75,11 @@ impl<S, const N: usize> Phong<'_, S, N> {
     }
 }
 
-impl<S: Specular, const N: usize> Fragment for Phong<'_, S, N> {
-    type Varying = Perspective<6>;
-    type Pixel = Pixel;
-
+impl<S: Specular, const N: usize> Shader<6> for Phong<'_, S, N> {
     #[inline]
-    fn shade(&self, [x, y, z, nx, ny, nz]: [i32; 6], _below: Pixel) -> Option<Pixel> {
+    fn shaded(&self, [x, y, z, nx, ny, nz]: [i32; 6]) -> Pixel {
         let color = self.lit.shade([nx, ny, nz], [x, y, z], self.material);
-        Some(pixel(color, self.primitive))
+        pixel(color, self.primitive)
     }
 }
 

@@ -14,6 +14,7 @@ use fixel::window::Window;
 
 use crate::emit::drawing::{self, Drawing, Nearer, Pixels};
 use crate::emit::log::Log;
+use crate::fixed::dials::Dials;
 use crate::fixed::{FixedPicture, Pixel};
 use crate::scene::mp1::Scene;
 use crate::scene::{Fault, Place};
@@ -40,7 +41,20 @@ pub fn color_shift(scene: &Scene) -> Result<u32, Fault> {
 /// # Errors
 /// A fault at the keyword of a primitive whose values do not fit the core.
 pub fn draw(scene: &Scene) -> Result<FixedPicture, Fault> {
-    draw_part(scene, Window::new(0, 0, scene.width as i32, scene.height as i32))
+    draw_with(scene, Dials::default())
+}
+
+/// The scene's picture with the dials set as given, where edges of 32 bits do.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_with(scene: &Scene, dials: Dials) -> Result<FixedPicture, Fault> {
+    let window = Window::new(0, 0, scene.width as i32, scene.height as i32);
+    if dials.are_exact() {
+        return draw_part(scene, window);
+    }
+    let (picture, _) = logged::<i32>(scene, window, dials, None)?;
+    Ok(picture)
 }
 
 /// The part `window` of it: what a strip or a tile holds.
@@ -75,9 +89,9 @@ pub fn recorded(scene: &Scene) -> Result<(FixedPicture, Option<Drawing>), Fault>
         draws: Vec::new(),
     });
     let (picture, log) = if wide {
-        logged::<i64>(scene, window, Some(log))?
+        logged::<i64>(scene, window, Dials::default(), Some(log))?
     } else {
-        logged::<i32>(scene, window, Some(log))?
+        logged::<i32>(scene, window, Dials::default(), Some(log))?
     };
     Ok((picture, log.map(Log::finish)))
 }
@@ -91,11 +105,16 @@ fn most_samples(scene: &Scene) -> u32 {
 /// # Errors
 /// As [`draw`], and where the picture does not fit the word.
 pub fn with_word<W: Word>(scene: &Scene, window: Window) -> Result<FixedPicture, Fault> {
-    let (picture, _) = logged::<W>(scene, window, None)?;
+    let (picture, _) = logged::<W>(scene, window, Dials::default(), None)?;
     Ok(picture)
 }
 
-fn logged<W: Word>(scene: &Scene, window: Window, log: Option<Log>) -> Result<(FixedPicture, Option<Log>), Fault> {
+fn logged<W: Word>(
+    scene: &Scene,
+    window: Window,
+    dials: Dials,
+    log: Option<Log>,
+) -> Result<(FixedPicture, Option<Log>), Fault> {
     let start = Place { line: 1, column: 1 };
     let whole = |message: String| Fault::new(start, message);
     let fsaa = scene.switches.fsaa;
@@ -106,7 +125,8 @@ fn logged<W: Word>(scene: &Scene, window: Window, log: Option<Log>) -> Result<(F
     let brush = Brush {
         switches: &scene.switches,
         views: Views::new(&scene.switches, viewport).map_err(whole)?,
-        units: Units::of(scene)?,
+        units: Units::with(scene, dials)?,
+        dials,
     };
     let n = fsaa as i32;
     let samples = Window::new(window.left * n, window.top * n, window.right * n, window.bottom * n);

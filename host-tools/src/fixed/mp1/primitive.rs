@@ -9,7 +9,7 @@ use fixel::num::Word;
 use fixel::screen::SubPx;
 use fixel::target::Buffer;
 use fixel::texture::{Rgba8888, Texture};
-use fixel::varying::{Linear, LinearFan, Perspective};
+use fixel::varying::{Linear, LinearFan, Perspective, Perspective32, PerspectiveSpans};
 use fixel::view::{self, Carried};
 
 use super::canvas::{Canvas, Draw, Views};
@@ -17,6 +17,8 @@ use super::program::{Colors, Decal, Paint, Plain, Program, Sample, Sampler, Texe
 use super::units::{self, Units};
 use crate::emit::drawing::Sampled;
 use crate::emit::log::{Log, Read};
+use crate::fixed::dials::{self, Dials};
+use crate::fixed::shader::BOUND;
 use crate::fixed::texcoord;
 use crate::lower;
 use crate::picture::Picture;
@@ -33,6 +35,8 @@ pub struct Brush<'s, W> {
     pub views: Views<W>,
     /// Of colours.
     pub units: Units,
+    /// How accurately.
+    pub dials: Dials,
 }
 
 impl<W: Word> Brush<'_, W> {
@@ -122,8 +126,12 @@ impl<W: Word> Brush<'_, W> {
         let (headroom, colors) = self.colors(vertices);
         let size = [texture.width(), texture.height()];
         let coordinates = vertices.each_ref().map(units::texcoord);
+        let most_bits = match self.dials.perspective {
+            dials::Perspective::Spans => texcoord::IN_SPANS,
+            _ => texcoord::FINE,
+        };
         let periods = if headroom > 0 { |_| 0 } else { texcoord::towards_zero };
-        let (st, fraction_bits) = texcoord::texels(coordinates, size, headroom, periods)?;
+        let (st, fraction_bits) = texcoord::texels(coordinates, size, headroom, most_bits, periods)?;
         let texels = self.texels(canvas, picture, texture, fraction_bits);
         if self.switches.decals {
             let values = std::array::from_fn(|i| {
@@ -149,7 +157,19 @@ impl<W: Word> Brush<'_, W> {
         values: [[i32; N]; 3],
         paint: P,
     ) {
-        if self.switches.hyp {
+        if self.in_perspective() && self.dials.perspective == dials::Perspective::Spans {
+            canvas.draw(&Triangle(
+                self,
+                carrying(vertices, values),
+                Program::<PerspectiveSpans<N, BOUND>, P>::new(paint, number),
+            ));
+        } else if self.in_perspective() && self.dials.perspective == dials::Perspective::Narrow {
+            canvas.draw(&Triangle(
+                self,
+                carrying(vertices, values),
+                Program::<Perspective32<N>, P>::new(paint, number),
+            ));
+        } else if self.in_perspective() {
             canvas.draw(&Triangle(
                 self,
                 carrying(vertices, values),
@@ -164,11 +184,17 @@ impl<W: Word> Brush<'_, W> {
         }
     }
 
+    /// Whether values are divided. Those that the dial leaves undivided are as in a scene without `hyp`; lines are too
+    /// thin for subspans.
+    fn in_perspective(&self) -> bool {
+        self.switches.hyp && self.dials.perspective != dials::Perspective::Affine
+    }
+
     fn line<const WU: bool>(&self, canvas: &mut Canvas, number: u32, vertices: &[Vertex; 2]) {
         let (headroom, values) = self.colors(vertices);
         let ends = carrying(vertices, values);
         let paint = Colors { headroom };
-        if self.switches.hyp {
+        if self.in_perspective() {
             canvas.draw(&Line::<'_, W, Perspective<4>, WU>(
                 self,
                 ends,

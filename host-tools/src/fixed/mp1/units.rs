@@ -5,6 +5,7 @@ use fixel::num::Scaled;
 use fixel::screen::SubPx;
 use fixel::srgb;
 
+use crate::fixed::dials::Dials;
 use crate::lower;
 use crate::scene::mp1::{Scene, Shape, Vertex};
 
@@ -26,9 +27,17 @@ impl Units {
     /// # Errors
     /// At the first primitive with a colour of 128 times full or more.
     pub fn of(scene: &Scene) -> Result<Self, crate::scene::Fault> {
+        Self::with(scene, Dials::default())
+    }
+
+    /// The same with the dials set so.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub fn with(scene: &Scene, dials: Dials) -> Result<Self, crate::scene::Fault> {
         let mut units = Self {
             shift: 0,
-            srgb: scene.switches.srgb,
+            srgb: scene.switches.srgb && !dials.stored_light,
         };
         for primitive in &scene.primitives {
             for vertex in vertices(&primitive.shape) {
