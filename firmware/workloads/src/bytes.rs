@@ -13,6 +13,8 @@ use fixel::fragment::Gouraud565;
 use fixel::screen::{Corner, FineDepth, Position, SubPx};
 use fixel::varying::{Color565, Perspective, Perspective32};
 
+use crate::draw::HalfTexel;
+
 /// Bytes of a section's name.
 pub const NAME_BYTES: usize = 16;
 /// Bytes of a corner.
@@ -93,6 +95,11 @@ impl Vertex {
     /// For the core, with its place on the texture.
     pub fn textured(self) -> Corner<Perspective32<2>> {
         self.with(Perspective32(Perspective::new(self.texel, self.inverse_w)))
+    }
+
+    /// As [`textured`](Self::textured), to within half a texel.
+    pub fn spanned(self) -> Corner<HalfTexel> {
+        self.with(Perspective::new(self.texel, self.inverse_w).into())
     }
 
     /// The colour in RGB565, rounded to nearest.

@@ -9,7 +9,7 @@ use fixel::draw::triangle;
 use fixel::fragment::{Flat565, Gouraud565};
 use fixel::screen::Corner;
 use fixel::texture::Tiled565;
-use fixel::varying::{Color565, Perspective32};
+use fixel::varying::{Color565, Perspective32, PerspectiveSpans};
 
 use crate::bytes::Vertex;
 use crate::frame::Frame;
@@ -21,6 +21,12 @@ pub type GouraudTriangle = [Corner<Color565>; 3];
 
 /// A textured triangle in perspective.
 pub type TexturedTriangle = [Corner<Perspective32<2>>; 3];
+
+/// Perspective to within half a texel: 116/256 by subdivision, the rest is left to arithmetic.
+pub type HalfTexel = PerspectiveSpans<2, 116>;
+
+/// A textured triangle in perspective, divided at the ends of subspans.
+pub type SpannedTriangle = [Corner<HalfTexel>; 3];
 
 /// Texels of a side of [`TEXTURE`].
 pub const TEXTURE_SIDE: usize = 64;
@@ -48,6 +54,23 @@ pub fn textured_depth(frame: &mut Frame, triangles: &[TexturedTriangle]) {
         return;
     };
     // Textures are loaded, in general: their address is no constant.
+    let texture = Tiled565::new(black_box(&TEXTURE));
+    for corners in triangles {
+        triangle(&mut color, &mut depth, corners, &texture);
+    }
+}
+
+/// `corners` for [`spanned_depth`].
+pub fn prepare_spanned(corners: [Vertex; 3]) -> SpannedTriangle {
+    corners.map(Vertex::spanned)
+}
+
+/// Texels in perspective to within half a texel, with depth.
+#[inline(never)]
+pub fn spanned_depth(frame: &mut Frame, triangles: &[SpannedTriangle]) {
+    let Ok((mut color, mut depth)) = frame.with_depth() else {
+        return;
+    };
     let texture = Tiled565::new(black_box(&TEXTURE));
     for corners in triangles {
         triangle(&mut color, &mut depth, corners, &texture);

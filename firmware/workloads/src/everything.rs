@@ -9,19 +9,20 @@ use fixel::bands::{Bands, Blocking, Pool};
 use fixel::blend::{ONE, Rgba, over888};
 use fixel::clip::{DepthRange, Planes, Polygon};
 use fixel::depth::{Depth, LessOrEqual, NoDepth, Options, Relation, Switched};
+use fixel::dither;
 use fixel::draw;
 use fixel::edge::{Edge, first_row};
 use fixel::error::Error;
 use fixel::fragment::{Antialiased, Flat, Fragment};
 use fixel::gradient::Basis;
-use fixel::light::world::{FULL, Material, PointLights};
-use fixel::light::{Lights, Matte};
+use fixel::light::world::{FULL, Glossy, Material, PointLights};
+use fixel::light::{Lights, Matte, Shiny};
 use fixel::line::Line;
 use fixel::matrix::{Directions, Matrix};
 use fixel::mesh::{Cache, Mesh, Normalized};
 use fixel::num::{
-    Angle, Block, Divisor, Scaled, SineTable, Trigonometry, Word, dot, power, reciprocal, reciprocal_square_root,
-    square_root, unit, unit_wide,
+    Angle, Block, Divisor, OneStep, Precision, Scaled, ShortSine, SineTable, Table, Trigonometry, TwoSteps, Word, dot,
+    power, reciprocal, reciprocal_square_root, square_root, unit, unit_wide,
 };
 use fixel::patch::{ControlPoint, Level, RectangularPatch, TriangularPatch};
 use fixel::pipeline::shapes::{BOX, Corner as ShapeCorner};
@@ -259,6 +260,15 @@ fn ready<T: Word>(part: &mut Part<'_>, projection: Matrix<T>, corners: [Block<T,
         behind: black_box(fixel::clip::Behind::Cut),
         cull: black_box(fixel::view::Cull::Nothing),
     };
+    let stored = View::<i32, i32, 0> {
+        projection: black_box(Matrix::identity()),
+        planes: Planes::default(),
+        viewport: Viewport::new(black_box(0), 0, 90, 60)?,
+        depth_range: view.depth_range,
+        behind: view.behind,
+        cull: view.cull,
+    };
+    black_box(stored.stored().vertex(black_box([3, 2, 1]), [7, 8]));
     let mut vertices = [ScreenVertex::empty([0; 2]); 4];
     for (vertex, corner) in vertices.iter_mut().zip(corners) {
         *vertex = view.clip_vertex(corner, black_box([1, 2]));
@@ -342,23 +352,33 @@ fn patches<T: Word>() {
 }
 
 fn lights<T: Word>() -> Result<(), Error> {
+    lights_at::<T, TwoSteps>();
+    lights_at::<T, OneStep>();
+    lights_at::<T, Table>();
+    Ok(())
+}
+
+fn lights_at<T: Word, P: Precision>() {
     let normal = black_box([0, 0, 1 << 30]);
-    let lights = Lights::<T, 2, 2>::default();
+    let shiny = Shiny(black_box(9 << 16));
+    let lights = Lights::<T, 2, 2, P>::default();
     black_box(lights.is_empty());
-    black_box(
-        lights
-            .at_scale(black_box(-8))
-            .shade_wide(normal, [1; 3], [2; 3], &Matte),
-    );
+    let lit = lights.at_scale(black_box(-8));
+    black_box(lit.shade_wide(normal, [1; 3], [2; 3], &Matte));
+    black_box(lit.shade(normal, [1; 3], black_box([2; 3]), &shiny));
+    black_box(lit.shade_wide(normal, [1; 3], black_box([2; 3]), &shiny));
+    let specular = Glossy {
+        color: black_box([FULL; 3]),
+        shininess: black_box(9 << 16),
+    };
     let material = Material {
         ambient: black_box([FULL; 3]),
         diffuse: [9; 3],
-        specular: Matte,
+        specular,
     };
-    let lights = PointLights::<T, 2>::new(black_box(Block::ZERO));
+    let lights = PointLights::<T, 2, P>::new(black_box(Block::ZERO));
     black_box(lights.shade_wide(normal, black_box(Block::ZERO), &material));
     black_box(lights.at_scale(black_box(-8)).shade_wide(normal, [1; 3], &material));
-    Ok(())
 }
 
 fn meshes() -> Result<(), Error> {
@@ -480,13 +500,37 @@ fn numbers() {
         unit_wide(black_box([1, 2, 3])),
     ));
     black_box((dot(black_box([1; 3]), black_box([2; 3])), decode_wide(black_box(99))));
+    precisions::<TwoSteps>();
+    precisions::<OneStep>();
+    precisions::<Table>();
+    let at = black_box((3, 4));
+    black_box((
+        dither::sixteenth(at),
+        dither::rgb565(black_box([1, 2, 3]), at),
+        dither::rgb565_fine(black_box([1, 2, 3]), at),
+        dither::one_bit(black_box(9), at),
+    ));
     for angle in black_box([Angle::from_turns(5), Angle::from_radians(6), Angle::from_degrees(7)]) {
         black_box((
             angle.turns(),
             SineTable::sin_cos::<i32>(angle),
             SineTable::sin_cos::<i64>(angle),
         ));
+        black_box((ShortSine::sin_cos::<i32>(angle), ShortSine::sin_cos::<i64>(angle)));
     }
+}
+
+fn precisions<P: Precision>() {
+    black_box((
+        P::reciprocal(black_box(5)),
+        P::reciprocal_square_root(black_box(7)),
+        P::power(black_box(3), black_box(4)),
+    ));
+    black_box((
+        P::unit(black_box([1, 2, 3])),
+        P::unit_wide(black_box([1, 2, 3])),
+        P::dot(black_box([1; 3]), black_box([2; 3])),
+    ));
 }
 
 #[cfg(test)]

@@ -19,3 +19,4 @@ pub mod scenes;
 pub mod shapes;
 pub mod sizes;
 pub mod stack;
+pub mod tiers;

@@ -108,9 +108,10 @@ fn place(scene: &Scene, vertices: &mut [Lit]) -> Result<View<i32, i32, 0>, Error
         behind: Behind::Cut,
         cull: Cull::Clockwise,
     };
-    let stored = scene.points.iter().zip(&scene.normals);
-    for (vertex, (&point, &normal)) in vertices.iter_mut().zip(stored) {
-        *vertex = view.stored_vertex(point, light.shade(normal));
+    let stored = view.stored();
+    let points = scene.points.iter().zip(&scene.normals);
+    for (vertex, (&point, &normal)) in vertices.iter_mut().zip(points) {
+        *vertex = stored.vertex(point, light.shade(normal));
     }
     Ok(view)
 }

@@ -8,7 +8,8 @@ use heapless::{String, Vec};
 
 use crate::bytes::{Vertex, triangles};
 use crate::draw::{
-    flat, flat_depth, gouraud, gouraud_depth, prepare_flat, prepare_gouraud, prepare_textured, textured_depth,
+    flat, flat_depth, gouraud, gouraud_depth, prepare_flat, prepare_gouraud, prepare_spanned, prepare_textured,
+    spanned_depth, textured_depth,
 };
 use crate::frame::Frame;
 use crate::machine::{Line, Machine};
@@ -28,6 +29,9 @@ pub fn run(machine: &mut impl Machine, frame: &mut Frame, file: &[u8]) {
     }
     if let Some(triangles) = triangles(file, "W3") {
         measure(machine, frame, "W3_exact", triangles, prepare_textured, textured_depth);
+    }
+    if let Some(triangles) = triangles(file, "W3") {
+        measure(machine, frame, "W3_spans", triangles, prepare_spanned, spanned_depth);
     }
     if let Some(triangles) = triangles(file, "W4") {
         measure(machine, frame, "W4", triangles, prepare_gouraud, gouraud_depth);

@@ -10,6 +10,7 @@ use fixel_workloads::machine::{Line, Machine};
 use fixel_workloads::model::{self, canvas::Canvas};
 use fixel_workloads::program;
 use fixel_workloads::scenes::{self, part::Memory};
+use fixel_workloads::tiers::{self, canvas::Canvas as TierCanvas};
 
 use crate::callgrind::count;
 use crate::failure::Failure;
@@ -98,6 +99,13 @@ pub fn draw_flat(draw: flat::Draw) -> Vec<Outcome> {
 pub fn draw_scenes() -> Vec<Outcome> {
     let mut host = Host::default();
     scenes::run(&mut host, &mut Memory::new());
+    host.outcomes
+}
+
+/// Draws every scene of the trade in every tier.
+pub fn draw_tiers() -> Vec<Outcome> {
+    let mut host = Host::default();
+    tiers::run(&mut host, &mut TierCanvas::new());
     host.outcomes
 }
 

@@ -33,6 +33,7 @@ mod standard;
 mod table;
 mod times;
 mod toolchain;
+mod trade;
 mod values;
 mod workloads;
 
@@ -142,6 +143,12 @@ enum Command {
         /// Any number.
         seed: u64,
     },
+    /// What the tiers and dials cost on the boards and how far they are from float64; exit 1 if the stored figures are stale.
+    Trade {
+        /// Store the figures, and write the pages that show them.
+        #[arg(long)]
+        update: bool,
+    },
     #[command(hide = true)]
     DrawScale { case: scale::Case, n: u32 },
     #[command(hide = true)]
@@ -181,6 +188,7 @@ fn main() -> ExitCode {
             println!("{}", generate::from_seed(seed));
             Ok(())
         }
+        Command::Trade { update } => trade::run(update),
         Command::DrawScale { case, n } => scale::draw(case, n),
         Command::DrawLine { bytes, line } => host::draw_line(&bytes, line),
     };

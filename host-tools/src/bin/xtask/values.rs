@@ -1,6 +1,8 @@
 //! What was drawn against real numbers: colour and depth of every pixel, each triangle by itself.
 
-use fixel_workloads::draw::{gouraud_depth, prepare_gouraud, prepare_textured, textured_depth};
+use fixel_workloads::draw::{
+    gouraud_depth, prepare_gouraud, prepare_spanned, prepare_textured, spanned_depth, textured_depth,
+};
 use fixel_workloads::frame::{Frame, HEIGHT, WIDTH};
 use serde_json::{Value, json};
 
@@ -14,18 +16,26 @@ const MOST: f64 = 1.0;
 /// Workloads with interpolated colour and depth.
 const GOURAUD: [&str; 2] = ["W2", "W4"];
 
-/// Most that a texel's place may be off where it is divided for at every pixel, in texels.
+/// Most that a texel's place may be off where it is divided for at every pixel, in texels, and at the ends of subspans.
 const MOST_TEXEL: f64 = 1.0 / 32.0;
+const MOST_SPANNED: f64 = 0.5;
 
 /// How textured triangles are drawn: the region's name, what draws one by itself, and what it may be off.
 type Textured = (&'static str, fn(&mut Frame, Triangle), f64);
 
 /// All ways.
-const TEXTURED: [Textured; 1] = [(
-    "W3_exact",
-    |frame, triangle| textured_depth(frame, &[prepare_textured(triangle)]),
-    MOST_TEXEL,
-)];
+const TEXTURED: [Textured; 2] = [
+    (
+        "W3_exact",
+        |frame, triangle| textured_depth(frame, &[prepare_textured(triangle)]),
+        MOST_TEXEL,
+    ),
+    (
+        "W3_spans",
+        |frame, triangle| spanned_depth(frame, &[prepare_spanned(triangle)]),
+        MOST_SPANNED,
+    ),
+];
 
 /// The worst of a workload.
 #[derive(Debug, Clone, Copy, PartialEq)]
