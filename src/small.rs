@@ -216,7 +216,10 @@ impl Small {
             || bounds.top < window.top
             || bounds.bottom > window.bottom
         {
-            cut(rows.get_mut(..(bounds.bottom - bounds.top) as usize)?, &bounds, window);
+            let crossed = rows.get_mut(..(bounds.bottom - bounds.top) as usize)?;
+            if !cut(crossed, &bounds, window) {
+                return None;
+            }
         }
         let sample = (bounds.left + a.min(b) as i32, bounds.top + first as i32);
         let weights = if CARRIES {
@@ -265,10 +268,11 @@ impl Small {
     }
 }
 
-/// Leaves what is on the window.
+/// Leaves what is on the window; whether there is anything.
 #[cold]
 #[inline(never)]
-fn cut(rows: &mut [[u8; 2]], bounds: &Window, window: &Window) {
+fn cut(rows: &mut [[u8; 2]], bounds: &Window, window: &Window) -> bool {
+    let mut any = false;
     let column = |column: i32| column.saturating_sub(bounds.left).clamp(0, 255) as u8;
     let (least, most) = (column(window.left), column(window.right));
     for (row, span) in (bounds.top..).zip(rows) {
@@ -276,8 +280,10 @@ fn cut(rows: &mut [[u8; 2]], bounds: &Window, window: &Window) {
         let (left, right) = (a.min(b).max(least), a.max(b).min(most));
         let inside = left < right && window.top <= row && row < window.bottom;
         *span = if inside { [left, right] } else { [0; 2] };
+        any |= inside;
         single(());
     }
+    any
 }
 
 /// What makes weights of edge functions.
