@@ -22,7 +22,7 @@ pub use spans::{PerspectiveSpans, SpansSlopes};
 pub trait Varying: Copy + Sized {
     /// What a polygon keeps of it.
     type Planes;
-    /// What a triangle of a usual shape and size keeps instead.
+    /// What a triangle keeps instead, or a piece of a large or thin one.
     type Slopes: Slopes<Self>;
     /// What a span keeps of it.
     type Ramps;
