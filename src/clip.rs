@@ -147,6 +147,9 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
 
 impl<T: Word, const N: usize> Polygon<ClipCorner<T>, N> {
     /// A triangle whose corners are its vertices, or a line whose ends are, if K is 2.
+    ///
+    /// A function of its own: inlined, it has polygons to copy on the stack of what clips.
+    #[inline(never)]
     pub(crate) fn of_vertices<const K: usize>(vertices: [Block<T, 4>; K]) -> Self {
         ClipCorner::of_vertices(vertices).into_iter().collect()
     }

@@ -35,10 +35,11 @@
 /// ```
 #[inline(always)]
 pub fn sixteenth((x, y): (i32, i32)) -> u32 {
-    // Four bits each, the first row's first column lowest.
-    const BAYER: u64 = 0x5d7f_91b3_6e4c_a280;
-    let place = (y & 3) << 2 | x & 3;
-    (BAYER >> (place << 2)) as u32 & 15
+    // Four bits each, the first column lowest; a row's word stays where it is while a row is drawn.
+    const BAYER: [u16; 4] = [0xa280, 0x6e4c, 0x91b3, 0x5d7f];
+    // Always there: four rows.
+    let row = BAYER.get((y & 3) as usize).copied().unwrap_or(0);
+    (row as u32) >> ((x & 3) << 2) & 15
 }
 
 /// A colour of 8 bits a channel as RGB565 at the pixel (x, y).

@@ -12,9 +12,9 @@
 //! **The budget.** With |coordinates| ≤ G pixels: |dx|, dy ≤ 2·256·G. The first row lies p < 256 subpixels below A. With
 //! dx = s·dy + m, 0 ≤ m < dy, and A.x + s·p = 256·i + f, 0 ≤ f < 256, its n is i·d + f·dy + m·p: one division does for
 //! start and step, |s·p| < 2·256·256·G, and f·dy + m·p < 2·d ≤ 2·256·(512·G). For `i32` and G = 4096 that is 2^30; for
-//! `i64` and G = 32768 there is room to spare. Rows above the window are skipped by one multiplication of double width.
+//! `i64` and G = 32768 there is room to spare. Rows above the window are skipped by doubling the step, a row for each bit.
 
-use crate::num::{Wide, Word};
+use crate::num::Word;
 
 /// Fraction bits of a screen position.
 pub const SUBPIXEL_BITS: u32 = 8;
@@ -87,7 +87,7 @@ impl<W: Word> Edge<W> {
             denominator,
         };
         if row > first {
-            edge.skip(W::from_i32(row - first));
+            edge.skip(row - first);
         }
         edge
     }
@@ -140,14 +140,24 @@ impl<W: Word> Edge<W> {
         };
     }
 
-    /// `rows` rows down at once: the rows above the window cost one division, not their number.
+    /// `rows` rows down at once, 1 or more: the bits of their number say of which steps of 1, 2, 4, … rows they are made.
     #[cold]
-    fn skip(&mut self, rows: W) {
-        // How far n has grown past q·d, in 1 − d…: rounded up, for which one less than d is added.
-        let grown = rows.times(self.remainder_step) + (self.complement + W::ONE).widen();
-        let most = self.denominator.widen() - W::ONE.widen();
-        let carries = (grown + most).div_floor(self.denominator.widen()).narrow();
-        self.column = self.column + rows * self.step + carries;
-        self.complement = (grown - carries.times(self.denominator)).narrow() - W::ONE;
+    #[inline(never)]
+    fn skip(&mut self, mut rows: i32) {
+        let (step, remainder_step) = (self.step, self.remainder_step);
+        loop {
+            if rows & 1 != 0 {
+                self.descend();
+            }
+            rows >>= 1;
+            if rows == 0 {
+                break;
+            }
+            // No more rows at a step than there are: the step is within the budget as the columns are.
+            let rest = self.remainder_step + self.remainder_step - self.denominator;
+            self.step = self.step + self.step + W::from_i32((rest >= W::ZERO) as i32);
+            self.remainder_step = if rest < W::ZERO { rest + self.denominator } else { rest };
+        }
+        (self.step, self.remainder_step) = (step, remainder_step);
     }
 }

@@ -79,8 +79,7 @@ impl<P: Copy> Fragment for Flat<P> {
     }
 }
 
-/// One RGB565 colour for the whole primitive: as [`Flat`], and stored two pixels at a time where the core can store words
-/// anywhere (ARMv7-M, not ARMv6-M).
+/// One RGB565 colour for the whole primitive: as [`Flat`], and stored two pixels at a time.
 ///
 /// ```
 /// use fixel::fragment::{Flat565, Fragment};
@@ -89,34 +88,44 @@ impl<P: Copy> Fragment for Flat<P> {
 /// assert_eq!(pixels, [0xf81f; 37]);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Flat565(u32);
+pub struct Flat565([u32; LANES]);
+
+/// Words that are the same, each in a register of its own where an instruction stores two that differ (ARMv7-M).
+const LANES: usize = if cfg!(all(target_arch = "arm", target_has_atomic = "32")) {
+    4
+} else {
+    1
+};
 
 impl Flat565 {
     /// This colour.
     #[inline(always)]
     pub fn new(pixel: u16) -> Self {
-        // Twice in a word that the compiler does not see through: neighbouring stores of its halves become one.
-        Flat565(black_box(pixel as u32 * 0x1_0001))
+        // Twice in words that the compiler does not see through, which would make a call of a block of them.
+        Flat565([(); LANES].map(|()| black_box(pixel as u32 * 0x1_0001)))
+    }
+
+    #[inline(always)]
+    fn pixel(&self) -> u16 {
+        self.0[0] as u16
     }
 }
 
-/// Pairs that are stored between two looks at how many are left. On ARMv6-M (the one of its family without compare-and-swap)
-/// as many halfwords as a store reaches from one address: with 64 a large triangle takes 2.3 instructions a pixel, so 1.7.
-const BLOCK: usize = if cfg!(all(target_arch = "arm", not(target_has_atomic = "32"))) {
-    16
-} else {
-    64
-};
+/// Words that are stored between two looks at how many are left: as many as an ARMv6-M store reaches from one address.
+const BLOCK: usize = 32;
 
-/// The first `N` of `pairs`, if there are so many; what is left.
+/// The first `N` of `words`, if there are so many; what is left.
 #[inline(always)]
-fn store<const N: usize>(pairs: &mut &mut [[u16; 2]], pair: [u16; 2]) {
-    let all = mem::take(pairs);
+#[allow(clippy::modulo_one)] // There are more lanes on other cores.
+fn store<const N: usize>(words: &mut &mut [u32], lanes: [u32; LANES]) {
+    let all = mem::take(words);
     if all.len() < N {
-        *pairs = all;
+        *words = all;
     } else if let Some((block, rest)) = all.split_first_chunk_mut::<N>() {
-        *block = [pair; N];
-        *pairs = rest;
+        for (i, word) in block.iter_mut().enumerate() {
+            *word = lanes[i % LANES];
+        }
+        *words = rest;
     }
 }
 
@@ -126,32 +135,35 @@ impl Fragment for Flat565 {
 
     #[inline(always)]
     fn solid(&self) -> Option<u16> {
-        Some(self.0 as u16)
+        Some(self.pixel())
     }
 
     #[inline(always)]
     fn fill(&self, pixels: &mut [u16]) -> bool {
-        let pair = [self.0 as u16, (self.0 >> 16) as u16];
-        let (mut pairs, last) = pixels.as_chunks_mut::<2>();
-        // By hand: chunks would be counted from the row's start, which is computed once more.
-        while pairs.len() >= BLOCK {
-            store::<BLOCK>(&mut pairs, pair);
+        let pixel = self.pixel();
+        // One pixel before the first whole word, and one after the last, if any.
+        let (before, mut words, after) = bytemuck::pod_align_to_mut::<u16, u32>(pixels);
+        for other in before {
+            *other = pixel;
         }
-        store::<32>(&mut pairs, pair);
-        store::<16>(&mut pairs, pair);
-        store::<8>(&mut pairs, pair);
-        store::<4>(&mut pairs, pair);
-        store::<2>(&mut pairs, pair);
-        store::<1>(&mut pairs, pair);
-        for pixel in last {
-            *pixel = self.0 as u16;
+        // By hand: chunks would be counted from the row's start, which is computed once more.
+        while words.len() >= BLOCK {
+            store::<BLOCK>(&mut words, self.0);
+        }
+        store::<16>(&mut words, self.0);
+        store::<8>(&mut words, self.0);
+        store::<4>(&mut words, self.0);
+        store::<2>(&mut words, self.0);
+        store::<1>(&mut words, self.0);
+        for other in after {
+            *other = pixel;
         }
         true
     }
 
     #[inline(always)]
     fn shade(&self, (): (), _below: u16) -> Option<u16> {
-        Some(self.0 as u16)
+        Some(self.pixel())
     }
 }
 

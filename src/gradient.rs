@@ -221,6 +221,49 @@ pub struct Plane {
     exact: bool,
 }
 
+/// A plane set up in place: all corners by [`widen`](Self::widen), those of the basis by [`hold`](Self::hold), then
+/// [`settle`](Self::settle). What is held lies where the plane's numbers come to lie.
+impl Plane {
+    /// Of no corners.
+    pub(crate) const EMPTY: Self = Plane {
+        value: 0,
+        x: 0,
+        y: 0,
+        narrow_step: 0,
+        range: (i32::MAX, i32::MIN),
+        exact: false,
+    };
+
+    /// Some corner has this value.
+    #[inline(always)]
+    pub(crate) fn widen(&mut self, value: i32) {
+        self.range = (self.range.0.min(value), self.range.1.max(value));
+    }
+
+    /// Least and largest.
+    #[inline(always)]
+    pub(crate) fn range(&self) -> (i32, i32) {
+        self.range
+    }
+
+    /// The corner at `place` of the three of the basis has this value.
+    #[inline(always)]
+    pub(crate) fn hold(&mut self, place: usize, value: i32) {
+        match place {
+            0 => self.value = value as i64,
+            1 => self.x = value as i64,
+            _ => self.y = value as i64,
+        }
+    }
+
+    /// [`Basis::plane`] of these.
+    #[inline(never)]
+    pub(crate) fn settle(&mut self, basis: &Basis) {
+        let values = [self.value, self.x, self.y].map(|held| held as i32);
+        *self = basis.plane(values, self.range);
+    }
+}
+
 /// A value along a span and its step per column, in the same units.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Ramp<V> {

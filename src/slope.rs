@@ -8,10 +8,10 @@
 //! **Error.** Weights are in units of 2^-(32 − up) per pixel, to 2^-29 of the largest, with `up` the least that keeps them
 //! below 2^30: 0 where the triangle is 4 px high in every direction, one more for each halving of that. A step is cut to
 //! 2^up units of its value, and by the weights' cut to as much again where the value uses all of 31 bits; the value at the
-//! anchor, for which weights are cut to 2^-24, is off by 2^(9 + up) units of 31 bits. [`Weights`] exist where rows and columns
-//! of the triangle's box together are at most 1024 >> up, and `up` is at most 3. So a value of 31 bits is within 2^13 units, a
-//! quarter of a step of depth, and one of 23 bits (a channel of RGB565 in 2^-16 level) within 1100 units
-//! (`tests/narrow.rs`). Whoever uses slopes leaves that much room at both ends of his range.
+//! anchor is less than a column and a row from the first corner, and off by no more than those. [`Weights`] exist where rows
+//! and columns of the triangle's box together are at most 1024 >> up, those two among them. A step is off by 4 times 2^up units or
+//! less, of 23 bits by little more than one. So a value of 31 bits is within 2^12 units, an eighth of a step of depth, and one of
+//! 23 bits (a channel of RGB565 in 2^-16 level) within 1100 units (`tests/narrow.rs`, `tests/bounds.rs`). Whoever uses slopes leaves that much room at both ends of his range.
 
 use core::convert::Infallible;
 
@@ -19,14 +19,14 @@ use crate::depth::Depth;
 use crate::edge::{SUBPIXEL_BITS, SUBPIXELS};
 use crate::fragment::Fragment;
 use crate::gradient::Ramp;
-use crate::num::{high_sum, near_reciprocal};
+use crate::num::{high, high_sum, near_reciprocal, product, sum_of_parts};
 use crate::span::Span;
 use crate::varying::Varying;
 
 /// Rows and columns of the largest box, times 2^up.
 const REACH: u32 = 1024;
-/// The thinnest triangle: ½ px high.
-const MOST_UP: u32 = 3;
+/// The thinnest triangle: 1/32 px high, of a few columns.
+const MOST_UP: u32 = 7;
 
 /// What a triangle's pixels add to the weights of its second and third corner; see the [module](self).
 #[derive(Debug, Clone, Copy, Default)]
@@ -55,47 +55,69 @@ impl Weights {
     /// let at = |x, y| slope.ramp(weights.place(x, y)).value;
     /// assert!(at(0, 0).abs() <= 8 && (at(2, 1) - (5 << 16)).abs() <= 8);
     /// ```
-    #[inline(always)]
-    pub fn new([a, b, c]: [(i32, i32); 3]) -> Option<Self> {
-        let (first, second) = ((b.0 - a.0, b.1 - a.1), (c.0 - a.0, c.1 - a.1));
-        let area = first.0 as i64 * second.1 as i64 - first.1 as i64 * second.0 as i64;
-        Self::of(a, first, second, area)
+    #[inline]
+    pub fn new(corners: [(i32, i32); 3]) -> Option<Self> {
+        let (weights, whole) = Self::of(&corners);
+        whole.then_some(weights)
     }
 
-    /// A function of its own: the same for all that is drawn.
+    /// What [`new`](Self::new) gives, and whether it gives any.
+    ///
+    /// A function of its own: the same for all that is drawn. No option, which would be copied.
     #[inline(never)]
-    fn of(corner: (i32, i32), (x1, y1): (i32, i32), (x2, y2): (i32, i32), area: i64) -> Option<Self> {
+    pub(crate) fn of(&[corner, b, c]: &[(i32, i32); 3]) -> (Self, bool) {
+        let ((x1, y1), (x2, y2)) = ((b.0 - corner.0, b.1 - corner.1), (c.0 - corner.0, c.1 - corner.1));
+        let area = product(x1, y2) - product(y1, x2);
         if area == 0 {
-            return None;
+            return (Weights::default(), false);
         }
-        let [width, height] = [(x1, x2), (y1, y2)].map(|(a, b)| a.unsigned_abs() | b.unsigned_abs());
+        let mut weights = Weights::default();
+        let whole = weights.lay_with_area(corner, (x1, y1), (x2, y2), area < 0, normalized(area.unsigned_abs()));
+        (weights, whole)
+    }
+
+    /// Becomes [that](Self::of) of a triangle with an area: whether that is negative, and its magnitude [normalized]; whether
+    /// there is any.
+    #[inline(always)]
+    pub(crate) fn lay_with_area(
+        &mut self,
+        corner: (i32, i32),
+        (x1, y1): (i32, i32),
+        (x2, y2): (i32, i32),
+        negative: bool,
+        (divisor, shift): (u32, i32),
+    ) -> bool {
+        // Of a negative side the complement, so that −2^bits ≤ side < 2^bits.
+        let [width, height] = [(x1, x2), (y1, y2)].map(|(a, b)| (a ^ a >> 31 | b ^ b >> 31) as u32);
         let bits = 32 - (width | height).leading_zeros() as i32;
-        let (divisor, shift) = normalized(area.unsigned_abs());
-        // 1/|area| = reciprocal · 2^-(62 + shift). |side| < 2^bits and reciprocal ≤ 2^31, so that a weight, which is
+        // 1/|area| = reciprocal · 2^-(62 + shift). |side| ≤ 2^bits and reciprocal < 2^31, so that a weight, which is
         // 2^(8 + 32 − up) · side / area, is below 2^30.
         let up = (bits - 21 - shift).max(0) as u32;
         // The or of two numbers is less than twice the larger.
         let reach = (width + height) >> SUBPIXEL_BITS;
         if up > MOST_UP || (reach + 2) << up > REACH {
-            return None;
+            return false;
         }
-        // In 1 + bits…27, since a box below 2^10 px has an area below 2^37.
-        let down = (22 + shift + up as i32) as u32;
+        // In 5…31 − bits, since a box below 2^10 px has an area below 2^37: shifted sides fit 32 bits.
+        let side_shift = (10 - shift - up as i32) as u32;
         let reciprocal = near_reciprocal(divisor);
-        let reciprocal = if area < 0 { -reciprocal } else { reciprocal };
-        let weight = |side: i32| high(side as i64 * reciprocal as i64, down);
-        let (x, y) = ((weight(y2), weight(-y1)), (weight(-x2), weight(x1)));
-        // Below 2^22 · 255 · 2.
-        let (fx, fy) = (corner.0 & (SUBPIXELS - 1), corner.1 & (SUBPIXELS - 1));
-        let at = |x: i32, y: i32| (x >> 8) * fx + (y >> 8) * fy;
-        Some(Weights {
+        let reciprocal = if negative { -reciprocal } else { reciprocal };
+        let weight = |side: i32, reciprocal: i32| high(side.wrapping_shl(side_shift), reciprocal);
+        // Not the sides are negated: the complement of −2^bits has less bits than its negative.
+        let x = (weight(y2, reciprocal), weight(y1, -reciprocal));
+        let y = (weight(x2, -reciprocal), weight(x1, reciprocal));
+        // Below 2^31.
+        let part = (corner.0 & (SUBPIXELS - 1), corner.1 & (SUBPIXELS - 1));
+        let at = |x: i32, y: i32| sum_of_parts((x, y), part);
+        *self = Weights {
             pixel: (corner.0 >> SUBPIXEL_BITS, corner.1 >> SUBPIXEL_BITS),
             anchor: (at(x.0, y.0), at(x.1, y.1)),
             x,
             y,
             up,
             anchor_up: up,
-        })
+        };
+        true
     }
 
     /// With the weights at a covered sample, negated, in units of 2^-29, and steps in units of 2^-(32 − up).
@@ -111,27 +133,21 @@ impl Weights {
         }
     }
 
-    /// Steps are cut to 2^up units.
-    #[inline(always)]
-    pub(crate) fn up(&self) -> u32 {
-        self.up
-    }
-
-    /// From one covered sample to another.
-    #[inline(always)]
-    pub(crate) fn move_to(&mut self, pixel: (i32, i32), anchor: (i32, i32)) {
-        (self.pixel, self.anchor) = (pixel, anchor);
-    }
-
-    /// Columns and rows from the anchor to pixel (x, y), modulo 2^32.
+    /// Where [slopes](Self::slope) have the value of pixel (x, y): columns and rows from the picture's origin.
     #[inline(always)]
     pub fn place(&self, x: i32, y: i32) -> (i32, i32) {
-        (x.wrapping_sub(self.pixel.0), y.wrapping_sub(self.pixel.1))
+        (x, y)
     }
 
     /// The slope through `values` at the triangle's corners, each less than 2^31 from the first.
     #[inline(always)]
-    pub fn slope(&self, [a, b, c]: [i32; 3]) -> Slope {
+    pub fn slope(&self, values: [i32; 3]) -> Slope {
+        self.at_origin(self.anchored(values))
+    }
+
+    /// The same from the anchor pixel, where the value is about the first.
+    #[inline(always)]
+    pub(crate) fn anchored(&self, [a, b, c]: [i32; 3]) -> Slope {
         let values = (b.wrapping_sub(a), c.wrapping_sub(a));
         // |weights| < 2^31, those at the anchor less by a 256th: below 2^63.
         let dot = |weights| high_sum(values, weights);
@@ -139,6 +155,16 @@ impl Weights {
             value: a.wrapping_sub(dot(self.anchor).wrapping_shl(self.anchor_up)),
             x: dot(self.x).wrapping_shl(self.up),
             y: dot(self.y).wrapping_shl(self.up),
+        }
+    }
+
+    /// An [anchored](Self::anchored) slope from the picture's origin on, once for all of its pixels: modulo 2^32 that is the same.
+    #[inline(always)]
+    pub(crate) fn at_origin(&self, slope: Slope) -> Slope {
+        let (columns, rows) = (self.pixel.0.wrapping_neg(), self.pixel.1.wrapping_neg());
+        Slope {
+            value: slope.ramp((columns, rows)).value,
+            ..slope
         }
     }
 }
@@ -156,17 +182,10 @@ pub(crate) fn normalized(magnitude: u64) -> (u32, i32) {
     }
 }
 
-/// `product` >> `down`, for 1…31 and a result of 32 bits. By halves: shifts of 64 bits are many instructions, or a call.
-#[inline(always)]
-fn high(product: i64, down: u32) -> i32 {
-    let (high, low) = ((product >> 32) as u32, product as u32);
-    (high.wrapping_shl(32 - down) | low.wrapping_shr(down)) as i32
-}
-
-/// A value over a triangle: at the anchor pixel, and what a column and a row add; modulo 2^32.
+/// A value over a triangle: at the picture's origin, and what a column and a row add; modulo 2^32.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Slope {
-    /// At the anchor.
+    /// At the origin.
     pub value: i32,
     /// Per column.
     pub x: i32,

@@ -55,6 +55,20 @@ pub struct Span {
     pub whole_right: i32,
 }
 
+impl Span {
+    /// What lies on the window of a row, between the first of its columns and the one after the last: perhaps nothing.
+    #[inline(always)]
+    pub(crate) fn new(row: i32, (whole_left, whole_right): (i32, i32), window: &Window) -> Self {
+        Span {
+            row,
+            left: whole_left.max(window.left),
+            right: whole_right.min(window.right),
+            whole_left,
+            whole_right,
+        }
+    }
+}
+
 /// What covers samples row by row.
 pub(crate) trait Spans {
     /// Calls `draw` with every span on `window`, from the top.
@@ -123,7 +137,7 @@ pub fn doubled_area(corners: &impl Corners) -> i64 {
 #[inline]
 pub fn scan<W: Word>(corners: &impl Corners, ccw: bool, window: Window, draw: impl FnMut(Span)) {
     if is_triangle(corners) {
-        scan_triangle::<W>([0, 1, 2].map(|i| corners.position(i)), ccw, window, draw);
+        scan_triangle::<W>(&[0, 1, 2].map(|i| corners.position(i)), ccw, window, draw);
     } else {
         scan_polygon::<W>(corners, ccw, window, draw);
     }
@@ -136,22 +150,12 @@ fn is_triangle<S: Corners>(_: &S) -> bool {
 
 /// Three corners: two edges run down from the top one, and one of them turns once.
 #[inline(always)]
-fn scan_triangle<W: Word>(corners: [(i32, i32); 3], ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
-    let Some(mut rows) = TriangleRows::<W>::new(corners, ccw, window) else {
-        return;
-    };
-    let mut columns = [(rows.row, rows.end); BLOCK];
-    while rows.row < rows.end {
-        let first = rows.row;
-        let count = rows.walk(&mut columns);
-        for (row, &(whole_left, whole_right)) in (first..).zip(columns.iter().take(count)) {
-            let span = Span {
-                row,
-                left: whole_left.max(window.left),
-                right: whole_right.min(window.right),
-                whole_left,
-                whole_right,
-            };
+fn scan_triangle<W: Word>(corners: &[(i32, i32); 3], ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
+    let mut rows = TriangleRows::<W>::new(corners, ccw, &window);
+    let mut block = rows.room();
+    while let Some((row, columns)) = rows.walk(&mut block) {
+        for (row, &columns) in (row..).zip(&*columns) {
+            let span = Span::new(row, columns, &window);
             if span.left < span.right {
                 draw(span);
             }
@@ -161,25 +165,31 @@ fn scan_triangle<W: Word>(corners: [(i32, i32); 3], ccw: bool, window: Window, m
 
 /// Rows of a triangle that are walked at a time. The walk has ten words of state and the drawing of a row as many: apart from
 /// each other, both stay in registers.
-const BLOCK: usize = 32;
+pub(crate) const BLOCK: usize = 16;
 
 /// A triangle's rows on a window, walked from the top.
-struct TriangleRows<W> {
-    left: Edge<W>,
-    right: Edge<W>,
-    /// The top corner, the lower one of the left side, that of the right side.
-    corners: [(i32, i32); 3],
-    /// Where the sides' upper edges end.
-    turns: (i32, i32),
+pub(crate) struct TriangleRows<W> {
+    left: Side<W>,
+    right: Side<W>,
     row: i32,
-    /// Where the present edges end; above the first row before there are any.
+    /// Where the first of the present edges ends.
     stop: i32,
+    /// The one after the last; none for a triangle beside the window.
+    end: i32,
+}
+
+/// One side of a triangle: from the top corner by way of another to the last.
+struct Side<W> {
+    edge: Edge<W>,
+    corners: [(i32, i32); 3],
+    /// Where the present edge ends; above the first row before there is one.
     end: i32,
 }
 
 impl<W: Word> TriangleRows<W> {
-    #[inline(always)]
-    fn new([a, b, c]: [(i32, i32); 3], ccw: bool, window: Window) -> Option<Self> {
+    /// The same code for all that is drawn.
+    #[inline(never)]
+    pub(crate) fn new(&[a, b, c]: &[(i32, i32); 3], ccw: bool, window: &Window) -> Self {
         // Counter-clockwise on the screen, with the top one first: the left side is a-b-c, the right side a-c-b.
         let (b, c) = if ccw { (b, c) } else { (c, b) };
         let (a, b, c) = if b.1 < a.1 && b.1 <= c.1 {
@@ -189,35 +199,50 @@ impl<W: Word> TriangleRows<W> {
         } else {
             (a, b, c)
         };
-        if is_beside(window, a.0.min(b.0).min(c.0), a.0.max(b.0).max(c.0)) {
-            return None;
-        }
-        let turns = (first_row(b.1), first_row(c.1));
-        Some(TriangleRows {
-            left: Edge::placeholder(turns.0),
-            right: Edge::placeholder(turns.1),
-            corners: [a, b, c],
-            turns,
+        let beside = is_beside(*window, a.0.min(b.0).min(c.0), a.0.max(b.0).max(c.0));
+        TriangleRows {
+            left: Side::new([a, b, c]),
+            right: Side::new([a, c, b]),
             row: first_row(a.1).max(window.top),
             stop: i32::MIN,
-            end: turns.0.max(turns.1).min(window.bottom),
-        })
+            end: if beside {
+                i32::MIN
+            } else {
+                first_row(b.1.max(c.1)).min(window.bottom)
+            },
+        }
     }
 
-    /// First column and the one after the last of the rows from `row` on, and how many these are. The same code for all that
-    /// is drawn.
+    /// Room for as many rows as are walked at a time: words that are the same, which costs a store each and no call.
+    #[inline(always)]
+    pub(crate) fn room(&self) -> [(i32, i32); BLOCK] {
+        [(self.row, self.row); BLOCK]
+    }
+
+    /// The next rows, as many as there is room for: the first of them, and of each the first column and the one after the last.
+    #[inline(always)]
+    pub(crate) fn walk<'a>(&mut self, columns: &'a mut [(i32, i32)]) -> Option<(i32, &'a mut [(i32, i32)])> {
+        let row = self.row;
+        let count = if row < self.end { self.fill(columns) } else { 0 };
+        Some((row, columns.get_mut(..count)?)).filter(|_| count > 0)
+    }
+
+    /// How many are filled. The same code for all that is drawn.
     #[inline(never)]
-    fn walk(&mut self, columns: &mut [(i32, i32); BLOCK]) -> usize {
-        let mut free = columns.as_mut_slice();
+    fn fill(&mut self, columns: &mut [(i32, i32)]) -> usize {
+        let most = columns.len();
+        let mut free = columns;
         while self.row < self.end && !free.is_empty() {
             if self.row >= self.stop {
-                self.turn();
+                self.left.reach(self.row);
+                self.right.reach(self.row);
+                self.stop = self.left.end.min(self.right.end).min(self.end);
             }
             let count = (self.stop.wrapping_sub(self.row) as usize).min(free.len());
             let Some((block, rest)) = mem::take(&mut free).split_at_mut_checked(count) else {
                 break;
             };
-            let (mut left, mut right) = (self.left, self.right);
+            let (mut left, mut right) = (self.left.edge, self.right.edge);
             for columns in block {
                 // Four rows at a time would not fit the registers.
                 black_box(());
@@ -225,28 +250,39 @@ impl<W: Word> TriangleRows<W> {
                 left.descend();
                 right.descend();
             }
-            (self.left, self.right) = (left, right);
+            (self.left.edge, self.right.edge) = (left, right);
             self.row += count as i32;
             free = rest;
         }
-        BLOCK - free.len()
+        most - free.len()
+    }
+}
+
+impl<W: Word> Side<W> {
+    #[inline(always)]
+    fn new(corners: [(i32, i32); 3]) -> Self {
+        Side {
+            edge: Edge::placeholder(0),
+            corners,
+            end: i32::MIN,
+        }
     }
 
-    /// Goes on to the edges that cross `row`: both at first, then the one whose turn it is.
-    #[inline(always)]
-    fn turn(&mut self) {
-        let ([a, b, c], row, (left, right)) = (self.corners, self.row, self.turns);
-        let first = self.stop == i32::MIN;
-        if first || row >= left {
-            let (from, to) = if row < left { (a, b) } else { (b, c) };
-            self.left = Edge::new(from, to, row);
+    /// Goes on to the edge that crosses `row`, if it is not the present one.
+    #[inline(never)]
+    fn reach(&mut self, row: i32) {
+        if row < self.end {
+            return;
         }
-        if first || row >= right {
-            let (from, to) = if row < right { (a, c) } else { (c, b) };
-            self.right = Edge::new(from, to, row);
-        }
-        let next = left.min(right);
-        self.stop = if row < next { next.min(self.end) } else { self.end };
+        let [top, middle, last] = self.corners;
+        let turn = first_row(middle.1);
+        let (from, to, end) = if row < turn {
+            (top, middle, turn)
+        } else {
+            (middle, last, i32::MAX)
+        };
+        self.edge = Edge::new(from, to, row);
+        self.end = end;
     }
 }
 
@@ -260,14 +296,7 @@ fn is_beside(window: Window, leftmost: i32, rightmost: i32) -> bool {
 #[inline(always)]
 fn rows<W: Word>(rows: Range<i32>, window: Window, (left, right): &mut (Edge<W>, Edge<W>), mut draw: impl FnMut(Span)) {
     for row in rows {
-        let (whole_left, whole_right) = (left.column(), right.column());
-        let span = Span {
-            row,
-            left: whole_left.max(window.left),
-            right: whole_right.min(window.right),
-            whole_left,
-            whole_right,
-        };
+        let span = Span::new(row, (left.column(), right.column()), &window);
         if span.left < span.right {
             draw(span);
         }

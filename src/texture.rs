@@ -1,4 +1,4 @@
-//! Textures over the caller's slice: a format, a size, nearest sampling that wraps, and decals.
+//! Textures over the caller's slice: a format, a size, nearest and linear sampling, and decals.
 //!
 //! Everything here can be a constant, so that a texture and its texels stay in flash. A texture coordinate arrives as it
 //! was interpolated: s·width and t·height, *in texels*, as an integer with a number of fraction bits that is chosen per
@@ -48,12 +48,16 @@
 //! # Ok::<(), fixel::error::Error>(())
 //! ```
 
+mod bilinear;
+
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use crate::error::Error;
 use crate::fragment::Fragment;
 use crate::varying::Varying;
+
+pub use bilinear::{Bilinear565, TiledBilinear565};
 
 /// A colour of a texture: red, green, blue and alpha in 0…255. Alpha is not multiplied in; 255 is opaque.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -44,8 +44,8 @@ fn depths<W: Word>(case: &Case, depths: [i32; 3]) -> Vec<((i32, i32), u16)> {
 /// up to 4096 px, and in the corners' range but for what slopes add to it.
 fn check<W: Word>(case: &Case, corner_depths: [i32; 3]) -> Result<(), TestCaseError> {
     let exact = corner_depths.map(i64::from);
-    // Triangles of a usual shape and size are interpolated in 32-bit words: a quarter of a step.
-    let slopes = STEP / 4;
+    // Triangles of a usual shape and size are interpolated in 32-bit words: an eighth of a step.
+    let slopes = STEP / 8;
     let rounded = |d: i128| ((d + STEP / 2) / STEP).clamp(0, 65535) as u16;
     let least = rounded(i128::from(*corner_depths.iter().min().unwrap()) - slopes);
     let most = rounded(i128::from(*corner_depths.iter().max().unwrap()) + slopes);

@@ -4,15 +4,18 @@
 use fixel::blend::{ONE, Rgba, over565, over888};
 use fixel::clip::{DepthRange, Planes};
 use fixel::edge::Edge;
+use fixel::fragment::Fragment;
 use fixel::matrix::{Directions, Matrix};
 use fixel::mesh::Normalized;
 use fixel::num::{
     Angle, Block, OneStep, Precision, Scaled, ShortSine, SineTable, Table, Trigonometry, TwoSteps, Word, reciprocal,
 };
+use fixel::pipeline::{ClampToEdge, MirroredRepeat};
 use fixel::span::scan;
 use fixel::srgb::{decode, decode_wide, encode};
 use fixel::supersample::Level;
-use fixel::texture::Texel;
+use fixel::texture::{Bilinear565, Rgb565, Texel, Texture, TiledBilinear565};
+use fixel::varying::Perspective32;
 use fixel::viewport::Viewport;
 use fixel::window::Window;
 use proptest::prelude::*;
@@ -275,6 +278,19 @@ proptest! {
             let linear = decode_wide(v);
             assert!(encode(v) <= 255 << 16 && (-(1i64 << 36)..1 << 46).contains(&linear));
         }
+    }
+
+    #[test]
+    fn any_place_on_any_texture(
+        st in prop::array::uniform2(int()), bits in prop_oneof![0..40u32, any::<u32>()], width in 1..=70u16, height in 1..=70u16,
+        texels in prop::collection::vec(any::<u16>(), 70 * 70),
+    ) {
+        let sampler = Bilinear565::new(Texture::new(Rgb565, &texels, width, height).unwrap(), bits);
+        let clamped = sampler.wrapped(ClampToEdge, MirroredRepeat);
+        let _ = (sampler.stored(st), sampler.levels(st), clamped.stored(st), clamped.levels(st));
+        let rows = [[texels[0], texels[1]], [texels[2], texels[3]]];
+        let tiled = TiledBilinear565::<Perspective32<2>, 2, 2>::new(&rows);
+        let _ = (tiled.levels(st), tiled.shade(st, 0));
     }
 
     #[test]

@@ -275,12 +275,25 @@ fn item_10_5_order_per_fragment() {
             = std::iter::RepeatN<Self::Cell<'c>>
         where
             Self: 'c;
+        type Block<'c>
+            = std::convert::Infallible
+        where
+            Self: 'c;
         const ENABLED: bool = true;
         fn limit(&self, window: fixel::window::Window) -> fixel::window::Window {
             window
         }
         fn cells(&mut self, span: &fixel::span::Span) -> Self::Cells<'_> {
             std::iter::repeat_n((self.0, self.1), (span.right - span.left) as usize)
+        }
+        fn block(&mut self, _: &fixel::window::Window, _: usize, _: usize) -> Option<Self::Block<'_>> {
+            None
+        }
+        fn block_cells<'c, 'd: 'c>(block: &'c mut Self::Block<'d>, _: usize, _: usize) -> Self::Cells<'c>
+        where
+            Self: 'd,
+        {
+            match *block {}
         }
         fn test((log, passes): Self::Cell<'_>, _: u32) -> bool {
             log.borrow_mut().push("depth");

@@ -1,4 +1,4 @@
-//! Triangles of a few pixels, which are set up in words of 32 bits and walked without a division: the samples of exact
+//! Triangles of a few pixels, which are walked in words of 32 bits and without a division: the samples of exact
 //! geometry, depths and colours within their stated errors, the same bits in any window.
 
 mod naive;
@@ -13,14 +13,14 @@ use fixel::varying::{Color565, Varying};
 use fixel::window::Window;
 use naive::Point;
 
-/// From the first corner to the others: triangles count as small below 16 columns and 8 rows, so that some are not.
+/// From the first corner to the others: triangles count as small below 16 columns and rows, so that some are not.
 const REACH: i32 = 4096;
 
 /// Units of a corner's depth in a step of the buffer.
 const STEP: f64 = 32768.0;
 
-/// What is stated for values of 31 bits: at most 46 steps of 4·2^4 units, and 32 at the sample that they start from.
-const UNITS: f64 = 3000.0;
+/// What is stated for values of 31 bits: at most 1024 >> up steps, each off by 4·2^up units.
+const UNITS: f64 = 4096.0;
 
 /// A small generator: its state is the case's name.
 struct Random(u64);
@@ -167,7 +167,7 @@ fn channels(pixel: u16) -> [i64; 3] {
     [pixel >> 11, pixel >> 5 & 63, pixel & 31].map(i64::from)
 }
 
-/// Depths within a tenth of a step before rounding, colours within a 64th of a level; both compared with the exact value.
+/// Depths within an eighth of a step before rounding, colours within a 64th of a level; both compared with the exact value.
 #[test]
 fn values_are_near_the_exact_ones() {
     const MOST: [i64; 3] = [31, 63, 31];

@@ -1,5 +1,7 @@
 //! What a scene is submitted to.
 
+use core::hint::black_box;
+
 use super::pool::{Bins, sample_rows};
 use super::{Cells, DepthTest};
 use crate::draw;
@@ -7,9 +9,8 @@ use crate::fragment::Fragment;
 use crate::mesh::Index;
 use crate::num::Word;
 use crate::screen::{Corner, Position, Shape, SubPx};
-use crate::span::doubled_area;
 use crate::target::Buffer;
-use crate::view::{Carried, ScreenVertex, Vertex, View, Way};
+use crate::view::{Carried, Facing, ScreenVertex, Triangle, Vertex, View, Way};
 use crate::window::Window;
 
 /// The frame being drawn: takes triangles, and stores them for all bands or draws them into one.
@@ -41,10 +42,10 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
     #[inline]
     pub fn triangle(&mut self, corners: [Corner<F::Varying>; 3], fragment: F) {
         match &mut self.0 {
-            Mode::Store(bins) => bins.triangle(&corners, fragment),
+            Mode::Store(bins) => bins.polygon(&corners, Position::placed, fragment),
             Mode::Draw { color, depth, window } => {
                 if reaches(&corners, *window) {
-                    draw::triangle(color, depth, corners, &fragment);
+                    draw::shape::<i32, _, _, [_; 3], _>(color, depth, &corners, &fragment);
                 }
             }
         }
@@ -75,6 +76,8 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
         F::Varying: Carried,
         I: Index,
     {
+        // Hidden from the compiler, which would decide anew for each triangle.
+        let facing = black_box(view.cull.facing());
         for [a, b, c] in triangles {
             let Some(a) = vertices.get(a.to_usize()) else {
                 continue;
@@ -85,7 +88,7 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
             let Some(c) = vertices.get(c.to_usize()) else {
                 continue;
             };
-            self.assembled(view, [a, b, c], fragment);
+            self.faced(view, facing, [a, b, c], &fragment);
         }
     }
 
@@ -100,14 +103,55 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
         T: Word,
         F::Varying: Carried,
     {
-        let [a, b, c] = vertices;
-        match view.way::<F::Varying>([a, b, c]) {
+        self.faced(view, view.cull.facing(), vertices, &fragment);
+    }
+
+    #[inline(always)]
+    fn faced<T>(
+        &mut self,
+        view: &View<T, i32, 0>,
+        facing: Facing,
+        [a, b, c]: [&ScreenVertex<T, <F::Varying as Carried>::Vertex>; 3],
+        fragment: &F,
+    ) where
+        T: Word,
+        F::Varying: Carried,
+    {
+        match view.way([a, b, c], facing) {
             Way::Nowhere => {}
-            Way::Whole(triangle) => self.shape(&triangle, Position::placed, fragment),
-            Way::Across => view.clip_triangle::<F::Varying>([a, b, c], &mut |shape| {
-                self.shape(shape, Position::placed, fragment);
-            }),
+            Way::Whole => self.whole(a, b, c, fragment),
+            Way::Across => self.across(view, a, b, c, fragment),
         }
+    }
+
+    #[inline(never)]
+    fn whole<T>(
+        &mut self,
+        a: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        b: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        c: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        fragment: &F,
+    ) where
+        T: Word,
+        F::Varying: Carried,
+    {
+        self.shape(&Triangle::new([a, b, c]), Position::placed, *fragment);
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn across<T>(
+        &mut self,
+        view: &View<T, i32, 0>,
+        a: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        b: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        c: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        fragment: &F,
+    ) where
+        T: Word,
+        F::Varying: Carried,
+    {
+        view.clip_triangle::<F::Varying>([a, b, c], &mut |shape| self.shape(shape, Position::placed, *fragment));
     }
 
     /// As [`draw::polygon`]: a convex polygon with corners within ±4096 px, such as [`View::project`] makes.
@@ -126,7 +170,7 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
             Mode::Store(bins) => bins.polygon(shape, place, fragment),
             Mode::Draw { color, depth, window } => {
                 if reaches(shape, *window) {
-                    draw::polygon::<i32, _, _, _, _>(color, depth, shape, doubled_area(shape), &fragment);
+                    draw::shape::<i32, _, _, _, _>(color, depth, shape, &fragment);
                 }
             }
         }

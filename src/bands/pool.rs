@@ -11,7 +11,7 @@ use crate::draw;
 use crate::edge::first_row;
 use crate::fragment::Fragment;
 use crate::screen::{Corner, FineDepth, Position, Shape};
-use crate::span::{Corners, doubled_area};
+use crate::span::Corners;
 use crate::target::Target;
 use crate::varying::Varying;
 use crate::window::Window;
@@ -172,42 +172,24 @@ impl<F: Fragment + Copy> Bins<'_, F> {
         self.window
     }
 
-    /// Stores a triangle, unless it misses the rows of the pass.
-    #[inline]
-    pub(super) fn triangle(&mut self, corners: &[Corner<F::Varying>; 3], fragment: F) {
-        let Some(bands) = self.bands(corners) else {
-            return;
-        };
-        let first = self.corners.len() as u16;
-        if self.corners.extend_from_slice(corners).is_err() {
-            self.full = true;
-            return;
-        }
-        self.list(first, 3, bands, fragment);
-    }
-
     /// Stores a polygon, unless it misses the rows of the pass. `place` makes positions of subpixels.
-    #[inline]
+    #[inline(always)]
     pub(super) fn polygon<S>(&mut self, shape: &S, place: impl Fn((i32, i32)) -> Position, fragment: F)
     where
         S: Shape<Varying = F::Varying>,
     {
-        let corner = |i| Corner {
-            position: place(shape.position(i)),
-            // In its range already.
-            depth: FineDepth::from_bits(shape.depth(i) as u32),
-            varying: shape.varying(i),
-        };
-        if shape.count() == 3 {
-            self.triangle(&[corner(0), corner(1), corner(2)], fragment);
-            return;
-        }
         let Some(bands) = self.bands(shape) else {
             return;
         };
         let (first, count) = (self.corners.len() as u16, shape.count());
         for i in 0..count {
-            if self.corners.push(corner(i)).is_err() {
+            let corner = Corner {
+                position: place(shape.position(i)),
+                // In its range already.
+                depth: FineDepth::from_bits(shape.depth(i) as u32),
+                varying: shape.varying(i),
+            };
+            if self.corners.push(corner).is_err() {
                 self.full = true;
                 return;
             }
@@ -226,7 +208,7 @@ impl<F: Fragment + Copy> Bins<'_, F> {
         (top < bottom).then(|| (self.rows.band(top), self.rows.band(bottom.wrapping_sub(1))))
     }
 
-    #[inline]
+    #[inline(always)]
     fn list(&mut self, first: u16, count: u16, (band, last): (u16, u16), fragment: F) {
         let index = self.polygons.len() as u16;
         let polygon = Polygon {
@@ -257,19 +239,22 @@ impl<F: Fragment + Copy> Bins<'_, F> {
         C: Target<Pixel = F::Pixel>,
         D: Depth,
     {
-        let mut going_on = self.under_way;
-        let mut beginning = self.lists.get(band as usize).map_or(NONE, |list| list.first);
+        let first = self.lists.get(band as usize).map_or(NONE, |list| list.first);
+        // As words, which need not be cut to 16 bits again and again.
+        let (mut going_on, mut beginning) = (self.under_way as usize, first as usize);
         let mut below = EMPTY;
         loop {
             let index = going_on.min(beginning);
-            let Some(polygon) = self.polygons.get_mut(index as usize) else {
+            let Some(polygon) = self.polygons.get_mut(index) else {
                 break;
             };
+            let next = polygon.next as usize;
             if index == going_on {
-                going_on = polygon.next;
+                going_on = next;
             } else {
-                beginning = polygon.next;
+                beginning = next;
             }
+            let index = index as u16;
             polygon.next = NONE;
             let Polygon {
                 first,
@@ -308,7 +293,7 @@ where
             fragment,
         );
     } else if let Some(corners) = corners.first_chunk() {
-        draw::triangle(color, depth, corners, fragment);
+        draw::shape::<i32, _, _, [_; 3], _>(color, depth, corners, fragment);
     }
 }
 
@@ -324,8 +309,7 @@ where
     let Some(first) = run.first() else {
         return;
     };
-    let shape = Run { run, first };
-    draw::polygon::<i32, _, _, _, _>(color, depth, &shape, doubled_area(&shape), fragment);
+    draw::shape::<i32, _, _, _, _>(color, depth, &Run { run, first }, fragment);
 }
 
 /// The rows whose samples lie between a polygon's highest corner and its lowest: first, and the one after the last.

@@ -1,14 +1,16 @@
 //! Triangles of vertices that were projected before.
 
+use core::hint::black_box;
+use core::marker::PhantomData;
+
 use crate::depth::Depth;
 use crate::fragment::Fragment;
 use crate::mesh::Index;
 use crate::num::Word;
-use crate::span::doubled_area;
 use crate::target::Target;
-use crate::view::{Carried, ScreenVertex, View, Way};
+use crate::view::{Carried, Facing, ScreenVertex, Triangle, View, Way};
 
-use super::polygon;
+use super::shape;
 
 /// Draws triangles whose corners are indices into `vertices`, made by [`View::vertex`] of the same view. A triangle with an
 /// index beyond the last vertex draws nothing.
@@ -54,6 +56,14 @@ pub fn indexed<T, W, C, D, F, I>(
     F: Fragment<Pixel = C::Pixel, Varying: Carried>,
     I: Index,
 {
+    let mut painter = Painter {
+        color,
+        depth,
+        fragment,
+        word: PhantomData::<W>,
+    };
+    // Hidden from the compiler, which would decide anew for each triangle.
+    let facing = black_box(view.cull.facing());
     for [a, b, c] in triangles {
         let Some(a) = vertices.get(a.to_usize()) else {
             continue;
@@ -64,7 +74,7 @@ pub fn indexed<T, W, C, D, F, I>(
         let Some(c) = vertices.get(c.to_usize()) else {
             continue;
         };
-        assembled(view, color, depth, [a, b, c], fragment);
+        painter.assembled(view, facing, [a, b, c]);
     }
 }
 
@@ -84,12 +94,66 @@ pub fn assembled<T, W, C, D, F>(
     D: Depth,
     F: Fragment<Pixel = C::Pixel, Varying: Carried>,
 {
-    let [a, b, c] = vertices;
-    match view.way::<F::Varying>([a, b, c]) {
-        Way::Nowhere => {}
-        Way::Whole(triangle) => polygon::<W, _, _, _, _>(color, depth, &triangle, triangle.area(), fragment),
-        Way::Across => view.clip_triangle::<F::Varying>([a, b, c], &mut |shape| {
-            polygon::<W, _, _, _, _>(color, depth, shape, doubled_area(shape), fragment);
-        }),
+    let mut painter = Painter {
+        color,
+        depth,
+        fragment,
+        word: PhantomData::<W>,
+    };
+    painter.assembled(view, view.cull.facing(), vertices);
+}
+
+/// All that triangles are drawn with, behind one reference: most of them are culled, and the loop that finds out needs the
+/// registers.
+struct Painter<'p, W, C, D, F> {
+    color: &'p mut C,
+    depth: &'p mut D,
+    fragment: &'p F,
+    word: PhantomData<W>,
+}
+
+impl<W, C, D, F> Painter<'_, W, C, D, F>
+where
+    W: Word,
+    C: Target,
+    D: Depth,
+    F: Fragment<Pixel = C::Pixel, Varying: Carried>,
+{
+    #[inline(always)]
+    fn assembled<T: Word>(
+        &mut self,
+        view: &View<T, W, 0>,
+        facing: Facing,
+        [a, b, c]: [&ScreenVertex<T, <F::Varying as Carried>::Vertex>; 3],
+    ) {
+        match view.way([a, b, c], facing) {
+            Way::Nowhere => {}
+            Way::Whole => self.whole(a, b, c),
+            Way::Across => self.across(view, a, b, c),
+        }
+    }
+
+    #[inline(never)]
+    fn whole<T: Word>(
+        &mut self,
+        a: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        b: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        c: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+    ) {
+        shape::<W, _, _, _, _>(self.color, self.depth, &Triangle::new([a, b, c]), self.fragment);
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn across<T: Word>(
+        &mut self,
+        view: &View<T, W, 0>,
+        a: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        b: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+        c: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
+    ) {
+        view.clip_triangle::<F::Varying>([a, b, c], &mut |left| {
+            shape::<W, _, _, _, _>(self.color, self.depth, left, self.fragment);
+        });
     }
 }

@@ -20,7 +20,7 @@ pub use block::{Block, Scaled};
 pub use one_step::OneStep;
 pub use power::power;
 pub use precision::{Precision, TwoSteps};
-pub(crate) use product::{high, high_sum};
+pub(crate) use product::{high, high_sum, high_unsigned, product, sum_of_parts};
 pub use quotient::Divisor;
 pub use recip::reciprocal;
 pub(crate) use recip::{near_reciprocal, short_reciprocal};

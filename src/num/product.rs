@@ -49,6 +49,41 @@ pub(crate) fn high_sum((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
     }
 }
 
+/// A word with the sign of a·p + b·q, for a sum that fits 64 bits: negative where that is, and only there.
+#[inline(always)]
+pub(crate) fn sign_of_sum((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
+    if BY_HALVES && is_short([a, b, p, q]) {
+        a.wrapping_mul(p).wrapping_add(b.wrapping_mul(q))
+    } else {
+        high_sum((a, b), (p, q))
+    }
+}
+
+/// Whether all lie in ±2^14: two products are below 2^29.
+#[inline(always)]
+fn is_short(values: [i32; 4]) -> bool {
+    let bits = values
+        .into_iter()
+        .fold(0, |bits, v| bits | v.wrapping_add(1 << 14) as u32);
+    bits >> 15 == 0
+}
+
+/// (a·p + b·q) · 2^-8, rounded down, for p and q in 0…255 and a sum that fits 32 bits.
+#[inline(always)]
+pub(crate) fn sum_of_parts((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
+    if BY_HALVES {
+        sum_of_parts_by_bytes((a, b), (p, q))
+    } else {
+        ((a as i64 * p as i64 + b as i64 * q as i64) >> 8) as i32
+    }
+}
+
+#[inline(always)]
+fn sum_of_parts_by_bytes((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
+    let low = (a & 255) * p + (b & 255) * q;
+    ((a >> 8) * p).wrapping_add((b >> 8) * q).wrapping_add(low >> 8)
+}
+
 #[inline(always)]
 fn high_by_halves(a: i32, b: i32) -> i32 {
     let ((a1, a0), (b1, b0)) = ((a >> 16, a & 0xffff), (b >> 16, b & 0xffff));
@@ -108,12 +143,38 @@ mod tests {
                 );
                 for b in ends {
                     for q in ends {
+                        let parts = (p & 255, q & 255);
+                        let sum = a as i64 * parts.0 as i64 + b as i64 * parts.1 as i64;
+                        assert_eq!(
+                            sum_of_parts_by_bytes((a, b), parts),
+                            (sum >> 8) as i32,
+                            "{a} {b} {parts:?}"
+                        );
                         let sum = a as i128 * p as i128 + b as i128 * q as i128;
                         if sum as i64 as i128 == sum {
                             assert_eq!(high_sum_by_halves((a, b), (p, q)) as i128, sum >> 32, "{a} {p} {b} {q}");
+                            assert_eq!(sign_of_sum((a, b), (p, q)) < 0, sum < 0, "{a} {p} {b} {q}");
                         }
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn short_sums_fit_a_word() {
+        let ends = [-(1 << 14), -1, 0, 1, (1 << 14) - 1];
+        for a in ends {
+            for p in ends {
+                assert!(is_short([a, p, 0, 0]) && is_short([0, 0, p, a]));
+                assert_eq!((a * p + p * p) as i64, a as i64 * p as i64 + p as i64 * p as i64);
+            }
+        }
+        for beyond in [1 << 14, -(1 << 14) - 1, i32::MAX, i32::MIN] {
+            for i in 0..4 {
+                let mut values = [0; 4];
+                values[i] = beyond;
+                assert!(!is_short(values));
             }
         }
     }

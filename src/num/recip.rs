@@ -2,7 +2,7 @@
 
 use core::num::NonZeroU32;
 
-use super::product::{high, high_unsigned};
+use super::product::high;
 
 /// floor(2^63 / `divisor`), exactly, for a normalised divisor in 2^31…2^32−1; the result lies in 2^31…2^32.
 ///
@@ -47,8 +47,10 @@ pub(crate) fn near_reciprocal(divisor: u32) -> i32 {
     let seed = SEEDS.get(((divisor >> 24) & 127) as usize).copied().unwrap_or(u16::MAX);
     let mut y = (seed as i32) << 15;
     for _ in 0..2 {
-        // 1 − d·y in units of 2^-30, never too large: y stays below the reciprocal, that is below 2^31.
-        let product = high_unsigned(y as u32, divisor) as i32;
+        // 1 − d·y in units of 2^-30, never too large: y stays below the reciprocal, that is below 2^31. The upper word of the
+        // product of d − 2^32 is less by y: of signed numbers, since compilers take that of unsigned ones by halves for one of
+        // 64 bits, which is a call there.
+        let product = high(y, divisor as i32).wrapping_add(y);
         let error = ((1 << 30) - 1i32).wrapping_sub(product);
         y = y.wrapping_add(high(y, error << 2));
     }

@@ -76,15 +76,16 @@ impl Slopes<Color565> for Color565Slopes {
     #[inline(always)]
     fn new(weights: &Weights, [Color565(a), Color565(b), Color565(c)]: [Color565; 3]) -> Option<Self> {
         let ([ra, ga, ba], [rb, gb, bb], [rc, gc, bc]) = (a, b, c);
-        let (red, blue) = (weights.slope([ra, rb, rc]), weights.slope([ba, bb, bc]));
+        // At the anchor, where they fit their halves.
+        let (red, blue) = (weights.anchored([ra, rb, rc]), weights.anchored([ba, bb, bc]));
         // To the nearest 2^-11: over 1024 rows and columns a quarter of a level.
         let both = |red: i32, blue: i32| pair((red + 16) >> 5, (blue + 16) >> 5);
         Some(Color565Slopes {
-            pair: Slope {
+            pair: weights.at_origin(Slope {
                 value: both(red.value, blue.value),
                 x: both(red.x, blue.x),
                 y: both(red.y, blue.y),
-            },
+            }),
             green: weights.slope([ga, gb, gc]),
         })
     }

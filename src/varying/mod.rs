@@ -155,10 +155,16 @@ fn ranges<const N: usize>(count: usize, corner: impl Fn(usize) -> [i32; N]) -> [
     let mut ranges = [(i32::MAX, i32::MIN); N];
     for i in 0..count {
         for (range, v) in ranges.iter_mut().zip(corner(i)) {
-            *range = (range.0.min(v), range.1.max(v));
+            widen(range, v);
         }
     }
     ranges
+}
+
+/// Least and largest, and one value more.
+#[inline(always)]
+fn widen((least, most): &mut (i32, i32), v: i32) {
+    (*least, *most) = ((*least).min(v), (*most).max(v));
 }
 
 /// What `f` makes of every item. `array::map` is outlined at some optimisation levels, and copies the array to do it.

@@ -2,7 +2,7 @@
 
 use core::convert::Infallible;
 
-use super::{Varying, each, planes, ranges};
+use super::{Varying, each, widen};
 use crate::gradient::{Basis, EXTRA_BITS, Place, Plane, Ramp};
 use crate::num::reciprocal;
 
@@ -63,31 +63,74 @@ pub struct PerspectiveRamps<const N: usize> {
     inverse: Ramp<i64>,
 }
 
+impl<const N: usize> PerspectivePlanes<N> {
+    #[inline(never)]
+    fn empty() -> Self {
+        PerspectivePlanes {
+            over_w: [Plane::EMPTY; N],
+            inverse: Plane::EMPTY,
+            ranges: [(i32::MAX, i32::MIN); N],
+            affine: false,
+        }
+    }
+
+    #[inline(never)]
+    fn widen(&mut self, corner: &Perspective<N>) {
+        self.inverse.widen(corner.inverse);
+        for (plane, &value) in self.over_w.iter_mut().zip(&corner.over_w) {
+            plane.widen(value);
+        }
+        for (range, &value) in self.ranges.iter_mut().zip(&corner.values) {
+            widen(range, value);
+        }
+    }
+
+    /// The corner at `place` of the three of the basis.
+    #[inline(never)]
+    fn hold(&mut self, place: usize, corner: &Perspective<N>) {
+        self.inverse.hold(place, corner.inverse);
+        for (plane, &value) in self.over_w.iter_mut().zip(&corner.over_w) {
+            plane.hold(place, value);
+        }
+    }
+
+    #[inline(never)]
+    fn settle(&mut self, basis: &Basis) {
+        let (least, most) = self.inverse.range();
+        self.affine = (least, most) == (1 << 30, 1 << 30);
+        if least < 0 && most > 0 {
+            self.ranges = [(i32::MIN, i32::MAX); N];
+        }
+        self.inverse.settle(basis);
+        for plane in &mut self.over_w {
+            plane.settle(basis);
+        }
+    }
+}
+
 impl<const N: usize> Varying for Perspective<N> {
     type Planes = PerspectivePlanes<N>;
     type Slopes = Infallible;
     type Ramps = PerspectiveRamps<N>;
     type Values = [i32; N];
 
-    #[inline]
+    // A function of its own: what setting planes up takes is free again when pixels are drawn.
+    #[inline(never)]
     fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> PerspectivePlanes<N> {
-        let inverses = || (0..count).map(|i| corner(i).inverse);
-        let mixed = inverses().any(|v| v > 0) && inverses().any(|v| v < 0);
-        let ranges = if mixed {
-            [(i32::MIN, i32::MAX); N]
-        } else {
-            ranges(count, |i| corner(i).values)
-        };
-        let [inverse] = planes(basis, count, |i| [corner(i).inverse]);
-        PerspectivePlanes {
-            over_w: planes(basis, count, |i| corner(i).over_w),
-            inverse,
-            ranges,
-            affine: inverses().all(|v| v == 1 << 30),
+        // In place, corner by corner: one is on the stack at a time. Where clipping has left it, it is mixed when it is asked for.
+        let mut planes = PerspectivePlanes::empty();
+        for i in 0..count {
+            planes.widen(&corner(i));
         }
+        for (place, i) in basis.corners().into_iter().enumerate() {
+            planes.hold(place, &corner(i));
+        }
+        planes.settle(basis);
+        planes
     }
 
-    #[inline(always)]
+    // As above: once a span.
+    #[inline(never)]
     fn ramps(planes: &PerspectivePlanes<N>, place: &Place) -> PerspectiveRamps<N> {
         PerspectiveRamps {
             over_w: each(&planes.over_w, |plane| plane.fine_ramp(place)),

@@ -11,6 +11,8 @@ pub trait Carried: Varying {
     type Vertex: Copy + core::fmt::Debug;
     /// Which shares [`mix`](Self::mix) wants.
     const WANTS: Wants;
+    /// What of them a corner of a polygon keeps until it is mixed: as little as [`mix`](Self::mix) looks at.
+    type Shares: Shares;
     /// At a corner of the polygon.
     fn mix(vertices: [Self::Vertex; 3], weights: &Weights) -> Self;
     /// At the three vertices, of a triangle that nothing was cut from. The weights are what [`mix`](Self::mix) wants; not made
@@ -87,14 +89,98 @@ pub struct Weights {
     /// Linear in space: over w, the largest sum of the polygon between a quarter and 1; where `affine`, they add up to 1.
     space: [i32; 3],
     /// The vertex that this corner is, unless a plane made it.
-    vertex: Option<usize>,
+    vertex: Option<u8>,
     /// With the same w everywhere, what is linear in space is linear over the screen.
     affine: bool,
+}
+
+/// [`Weights`] as they are kept: a corner with eight values is a third of what it would be with the values.
+pub trait Shares: Copy + core::fmt::Debug {
+    /// What is kept of these.
+    fn of(weights: &Weights) -> Self;
+    /// With all that was kept; what was not is any.
+    fn weights(&self) -> Weights;
+}
+
+impl Shares for () {
+    #[inline(always)]
+    fn of(_: &Weights) {}
+    #[inline(always)]
+    fn weights(&self) -> Weights {
+        Weights::of_vertex(0)
+    }
+}
+
+/// For values that are linear over the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OnScreen {
+    shares: [i32; 3],
+    vertex: Option<u8>,
+}
+
+impl Shares for OnScreen {
+    #[inline]
+    fn of(weights: &Weights) -> Self {
+        OnScreen {
+            shares: weights.screen,
+            vertex: weights.vertex,
+        }
+    }
+    #[inline]
+    fn weights(&self) -> Weights {
+        Weights {
+            screen: self.shares,
+            space: self.shares,
+            vertex: self.vertex,
+            affine: true,
+        }
+    }
+}
+
+/// For values that are linear in space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct InSpace {
+    shares: [i32; 3],
+    vertex: Option<u8>,
+    affine: bool,
+}
+
+impl Shares for InSpace {
+    #[inline]
+    fn of(weights: &Weights) -> Self {
+        InSpace {
+            shares: weights.space,
+            vertex: weights.vertex,
+            affine: weights.affine,
+        }
+    }
+    #[inline]
+    fn weights(&self) -> Weights {
+        Weights {
+            screen: self.shares,
+            space: self.shares,
+            vertex: self.vertex,
+            affine: self.affine,
+        }
+    }
+}
+
+/// For both.
+impl Shares for Weights {
+    #[inline]
+    fn of(weights: &Weights) -> Self {
+        *weights
+    }
+    #[inline]
+    fn weights(&self) -> Weights {
+        *self
+    }
 }
 
 impl Carried for () {
     type Vertex = ();
     const WANTS: Wants = Wants::NOTHING;
+    type Shares = ();
     #[inline(always)]
     fn mix(_: [(); 3], _: &Weights) -> Self {}
     #[inline(always)]
@@ -108,6 +194,7 @@ impl Carried for () {
 impl<const N: usize> Carried for Linear<N> {
     type Vertex = [i32; N];
     const WANTS: Wants = Wants::SCREEN;
+    type Shares = OnScreen;
     #[inline]
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         Linear(Self::between(vertices, weights))
@@ -122,13 +209,14 @@ impl<const N: usize> Carried for Linear<N> {
     }
     #[inline]
     fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
-        weights.pick(vertices).unwrap_or_else(|| sum(weights.screen, vertices))
+        weights.pick(vertices).unwrap_or_else(|| sum(weights.screen, &vertices))
     }
 }
 
 impl Carried for Color565 {
     type Vertex = [i32; 3];
     const WANTS: Wants = Wants::SCREEN;
+    type Shares = OnScreen;
     #[inline]
     fn mix(vertices: [[i32; 3]; 3], weights: &Weights) -> Self {
         Color565(Self::between(vertices, weights))
@@ -153,6 +241,7 @@ impl<const N: usize> Carried for LinearFan<N> {
         fan: true,
         ..Wants::SCREEN
     };
+    type Shares = OnScreen;
     #[inline]
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         LinearFan(Self::between(vertices, weights))
@@ -174,6 +263,7 @@ impl<const N: usize> Carried for LinearFan<N> {
 impl<const N: usize> Carried for Perspective<N> {
     type Vertex = [i32; N];
     const WANTS: Wants = Wants::SPACE;
+    type Shares = InSpace;
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         if weights.affine {
             let values = Self::between(vertices, weights);
@@ -183,7 +273,7 @@ impl<const N: usize> Carried for Perspective<N> {
                 values,
             };
         }
-        let over_w = sum(weights.space, vertices);
+        let over_w = sum(weights.space, &vertices);
         // At most 1 but for the rounding of three: far from overflow.
         let [a, b, c] = weights.space;
         let inverse = a.saturating_add(b).saturating_add(c);
@@ -201,13 +291,14 @@ impl<const N: usize> Carried for Perspective<N> {
     }
     #[inline]
     fn between(vertices: [[i32; N]; 3], weights: &Weights) -> [i32; N] {
-        weights.pick(vertices).unwrap_or_else(|| sum(weights.space, vertices))
+        weights.pick(vertices).unwrap_or_else(|| sum(weights.space, &vertices))
     }
 }
 
 impl<const N: usize> Carried for Linear32<N> {
     type Vertex = [i32; N];
     const WANTS: Wants = Wants::SCREEN;
+    type Shares = OnScreen;
     #[inline]
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         Linear32(Self::between(vertices, weights))
@@ -225,6 +316,7 @@ impl<const N: usize> Carried for Linear32<N> {
 impl<const N: usize> Carried for Perspective32<N> {
     type Vertex = [i32; N];
     const WANTS: Wants = Wants::SPACE;
+    type Shares = InSpace;
     #[inline]
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         Perspective32(Perspective::mix(vertices, weights))
@@ -238,6 +330,7 @@ impl<const N: usize> Carried for Perspective32<N> {
 impl<const N: usize, const BOUND: u32> Carried for PerspectiveSpans<N, BOUND> {
     type Vertex = [i32; N];
     const WANTS: Wants = Wants::SPACE;
+    type Shares = InSpace;
     #[inline]
     fn mix(vertices: [[i32; N]; 3], weights: &Weights) -> Self {
         PerspectiveSpans(Perspective::mix(vertices, weights))
@@ -252,6 +345,7 @@ impl<const N: usize, const BOUND: u32> Carried for PerspectiveSpans<N, BOUND> {
 impl<A: Carried, B: Carried> Carried for (A, B) {
     type Vertex = (A::Vertex, B::Vertex);
     const WANTS: Wants = A::WANTS.and(B::WANTS);
+    type Shares = Weights;
     #[inline]
     fn mix(vertices: [Self::Vertex; 3], weights: &Weights) -> Self {
         let (first, second) = (vertices.map(|v| v.0), vertices.map(|v| v.1));
@@ -275,10 +369,11 @@ impl<A: Carried, B: Carried> Carried for (A, B) {
 }
 
 /// Σ share · value, rounded.
-fn sum<const N: usize>(shares: [i32; 3], vertices: [[i32; N]; 3]) -> [i32; N] {
+#[inline(never)]
+fn sum<const N: usize>(shares: [i32; 3], vertices: &[[i32; N]; 3]) -> [i32; N] {
     let mut sums = [1i64 << 29; N];
     for (share, values) in shares.into_iter().zip(vertices) {
-        for (sum, v) in sums.iter_mut().zip(values) {
+        for (sum, &v) in sums.iter_mut().zip(values) {
             *sum += share as i64 * v as i64;
         }
     }
@@ -292,7 +387,7 @@ impl Weights {
         Weights {
             screen: [0; 3],
             space: [0; 3],
-            vertex: Some(index),
+            vertex: Some(index as u8),
             affine: true,
         }
     }
@@ -347,13 +442,9 @@ impl<T: Word> Weigh<T> {
     #[inline(always)]
     pub(crate) fn weights<V: Carried>(&self, corner: &ClipCorner<T>) -> Weights {
         if V::WANTS.screen || V::WANTS.space {
-            return self.shares(corner);
-        }
-        Weights {
-            screen: [0; 3],
-            space: [0; 3],
-            vertex: None,
-            affine: true,
+            self.shares(corner)
+        } else {
+            Weights::of_vertex(0)
         }
     }
 
@@ -400,7 +491,7 @@ pub(super) fn at_vertices<T: Word>(w: [Scaled<T>; 3]) -> [Weights; 3] {
 }
 
 /// The vertex that a corner is.
-fn vertex_of<T: Word>(corner: &ClipCorner<T>) -> Option<usize> {
+fn vertex_of<T: Word>(corner: &ClipCorner<T>) -> Option<u8> {
     let zero = T::ZERO;
     match corner.weights.mantissas() {
         [_, b, c] if b == zero && c == zero => Some(0),

@@ -3,35 +3,37 @@
 use crate::num::Word;
 use crate::screen::{Shape, end};
 use crate::span::Corners;
-use crate::varying::Varying;
 
-use super::{Carried, ProjectedCorner, Vertex, View, Weigh, in_clip_space, w_of};
+use super::{Carried, ProjectedCorner, Shares, Vertex, View, Weigh, in_clip_space, w_of};
 use crate::clip::{Polygon, to_view};
 
 /// The two ends of a line on the screen and what they carry.
 #[derive(Debug)]
-pub struct ProjectedLine<V>([ProjectedCorner<V>; 2]);
+pub struct ProjectedLine<V: Carried> {
+    carried: [V::Vertex; 3],
+    ends: [ProjectedCorner<V::Shares>; 2],
+}
 
-impl<V> Corners for ProjectedLine<V> {
+impl<V: Carried> Corners for ProjectedLine<V> {
     #[inline]
     fn count(&self) -> usize {
         2
     }
     #[inline]
     fn position(&self, index: usize) -> (i32, i32) {
-        end(&self.0, index).position
+        end(&self.ends, index).position
     }
 }
 
-impl<V: Varying> Shape for ProjectedLine<V> {
+impl<V: Carried> Shape for ProjectedLine<V> {
     type Varying = V;
     #[inline]
     fn depth(&self, index: usize) -> i32 {
-        end(&self.0, index).depth
+        end(&self.ends, index).depth
     }
     #[inline]
     fn varying(&self, index: usize) -> V {
-        end(&self.0, index).varying
+        V::mix(self.carried, &end(&self.ends, index).shares.weights())
     }
 }
 
@@ -65,7 +67,8 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         }
         to_view(&mut line, &self.viewport, self.depth_range, self.behind)?;
         let weigh = Weigh::new(&line, vertex_w, V::WANTS);
-        let end = |i| ProjectedCorner::new(&self.viewport, self.depth_range, &weigh, &carried, line.get(i)?);
-        Some(ProjectedLine([end(0)?, end(1)?]))
+        let end = |i| ProjectedCorner::new::<V, _, _>(&self.viewport, self.depth_range, &weigh, line.get(i)?);
+        let ends = [end(0)?, end(1)?];
+        Some(ProjectedLine { carried, ends })
     }
 }

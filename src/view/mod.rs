@@ -13,9 +13,8 @@ use crate::matrix::Matrix;
 use crate::num::{Block, Scaled, Word};
 use crate::screen::Shape;
 use crate::span::{Corners, doubled_area};
-use crate::varying::Varying;
 use crate::viewport::Viewport;
-pub use carried::{Carried, Wants, Weights};
+pub use carried::{Carried, InSpace, OnScreen, Shares, Wants, Weights};
 pub(crate) use carried::{Weigh, in_clip_space};
 use carried::{at_cut, whole};
 pub use line::ProjectedLine;
@@ -43,6 +42,32 @@ impl Cull {
             Cull::Clockwise => area > 0,
             Cull::CounterClockwise => area < 0,
         }
+    }
+
+    /// The same for the words of [`Facing`].
+    #[inline(always)]
+    pub(crate) fn facing(self) -> Facing {
+        let (flip, end) = match self {
+            Cull::Nothing => (0, i32::MAX),
+            Cull::Clockwise => (0, 0),
+            Cull::CounterClockwise => (-1, 0),
+        };
+        Facing { flip, end }
+    }
+}
+
+/// A [`Cull`] as numbers: triangle by triangle nothing is decided but by a comparison.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Facing {
+    flip: i32,
+    end: i32,
+}
+
+impl Facing {
+    /// Whether a triangle is drawn, by a word with the sign of the doubled area, negated. Some without area are kept.
+    #[inline(always)]
+    fn keeps(self, negated: i32) -> bool {
+        negated ^ self.flip < self.end
     }
 }
 
@@ -93,11 +118,12 @@ pub struct Vertex<T, A> {
     pub carried: A,
 }
 
-/// A polygon on the screen and what its corners carry.
+/// A polygon on the screen and what its corners carry, mixed anew whenever it is asked for.
 #[derive(Debug, Clone)]
-pub struct Projected<V, const N: usize> {
-    first: ProjectedCorner<V>,
-    others: Polygon<ProjectedCorner<V>, N>,
+pub struct Projected<V: Carried, const N: usize> {
+    carried: [V::Vertex; 3],
+    first: ProjectedCorner<V::Shares>,
+    others: Polygon<ProjectedCorner<V::Shares>, N>,
 }
 
 /// A corner that clipping has made, and what a vertex in its place would carry.
@@ -131,39 +157,39 @@ struct ToFar<T, A> {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct ProjectedCorner<V> {
+struct ProjectedCorner<S> {
     position: (i32, i32),
     depth: i32,
-    varying: V,
+    /// What it has of the three vertices.
+    shares: S,
 }
 
-impl<V: Carried> ProjectedCorner<V> {
+impl<S: Shares> ProjectedCorner<S> {
     /// A corner of a polygon, or of a line, that lies in the view.
     #[inline]
-    fn new<T: Word, W: Word>(
+    fn new<V: Carried<Shares = S>, T: Word, W: Word>(
         viewport: &Viewport<W>,
         range: DepthRange,
         weigh: &Weigh<T>,
-        carried: &[V::Vertex; 3],
         corner: &ClipCorner<T>,
     ) -> Option<Self> {
         let (x, y, depth) = viewport.place(corner.position, range)?;
         Some(ProjectedCorner {
             position: (x, y),
             depth,
-            varying: V::mix(*carried, &weigh.weights::<V>(corner)),
+            shares: S::of(&weigh.weights::<V>(corner)),
         })
     }
 }
 
-impl<V: Copy, const N: usize> Projected<V, N> {
+impl<V: Carried, const N: usize> Projected<V, N> {
     #[inline]
-    fn corner(&self, index: usize) -> &ProjectedCorner<V> {
+    fn corner(&self, index: usize) -> &ProjectedCorner<V::Shares> {
         self.others.get(index.wrapping_sub(1)).unwrap_or(&self.first)
     }
 }
 
-impl<V: Copy, const N: usize> Corners for Projected<V, N> {
+impl<V: Carried, const N: usize> Corners for Projected<V, N> {
     #[inline]
     fn count(&self) -> usize {
         1 + self.others.len()
@@ -174,15 +200,15 @@ impl<V: Copy, const N: usize> Corners for Projected<V, N> {
     }
 }
 
-impl<V: Varying, const N: usize> Shape for Projected<V, N> {
+impl<V: Carried, const N: usize> Shape for Projected<V, N> {
     type Varying = V;
     #[inline]
     fn depth(&self, index: usize) -> i32 {
         self.corner(index).depth
     }
-    #[inline]
+    #[inline(never)]
     fn varying(&self, index: usize) -> V {
-        self.corner(index).varying
+        V::mix(self.carried, &self.corner(index).shares.weights())
     }
 }
 
@@ -217,7 +243,8 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         if V::WANTS.fan && !self.planes.is_empty() {
             return false;
         }
-        let (mut polygon, vertex_w) = self.clip(vertices);
+        let mut polygon = Polygon::of_vertices(vertices.each_ref().map(|v| v.position));
+        let vertex_w = self.clip(vertices, &mut polygon);
         if self.is_across::<V>(vertex_w) || self.is_through_infinity(&polygon) {
             return false;
         }
@@ -230,7 +257,8 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
     #[cold]
     #[inline(never)]
     fn project_all<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3], draw: &mut impl FnMut(&Projected<V, N>)) {
-        let (mut polygon, vertex_w) = self.clip(vertices);
+        let mut polygon = Polygon::of_vertices(vertices.each_ref().map(|v| v.position));
+        let vertex_w = self.clip(vertices, &mut polygon);
         let carried = vertices.each_ref().map(|v| v.carried);
         if V::WANTS.fan && !self.planes.is_empty() {
             self.fan::<V>(&polygon, carried, draw);
@@ -239,16 +267,14 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         }
     }
 
-    /// What user planes leave, in clip space, and w of the vertices.
+    /// Leaves of a triangle what user planes keep, and takes it to clip space; w of the vertices.
     #[inline(always)]
-    fn clip<A>(&self, vertices: &[Vertex<T, A>; 3]) -> (Polygon<ClipCorner<T>, N>, [Scaled<T>; 3]) {
-        let mut polygon = Polygon::of_vertices(vertices.each_ref().map(|v| v.position));
-        self.planes.cut(&mut polygon);
+    fn clip<A>(&self, vertices: &[Vertex<T, A>; 3], polygon: &mut Polygon<ClipCorner<T>, N>) -> [Scaled<T>; 3] {
+        self.planes.cut(polygon);
         for corner in polygon.iter_mut() {
             corner.position = self.projection.transform(corner.position);
         }
-        let vertex_w = vertices.each_ref().map(|v| w_of(self.projection.transform(v.position)));
-        (polygon, vertex_w)
+        vertices.each_ref().map(|v| w_of(self.projection.transform(v.position)))
     }
 
     /// Whether a triangle has to be cut [where it passes the camera](Self::across).
@@ -405,11 +431,12 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         let weigh = Weigh::new(polygon, vertex_w, V::WANTS);
         let mut corners = polygon
             .iter()
-            .filter_map(|corner| ProjectedCorner::new(&self.viewport, range, &weigh, &carried, corner));
+            .filter_map(|corner| ProjectedCorner::new::<V, _, _>(&self.viewport, range, &weigh, corner));
         let Some(first) = corners.next() else {
             return;
         };
         let polygon = projected.insert(Projected {
+            carried,
             first,
             others: Polygon::default(),
         });

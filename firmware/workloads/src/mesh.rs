@@ -109,9 +109,12 @@ fn place(scene: &Scene, vertices: &mut [Lit]) -> Result<View<i32, i32, 0>, Error
         cull: Cull::Clockwise,
     };
     let stored = view.stored();
-    let points = scene.points.iter().zip(&scene.normals);
-    for (vertex, (&point, &normal)) in vertices.iter_mut().zip(points) {
-        *vertex = stored.vertex(point, light.shade(normal));
+    // One after the other: both at once need more registers than there are.
+    for (vertex, &point) in vertices.iter_mut().zip(&scene.points) {
+        *vertex = stored.vertex(point, vertex.carried);
+    }
+    for (vertex, &normal) in vertices.iter_mut().zip(&scene.normals) {
+        vertex.carried = light.shade(normal);
     }
     Ok(view)
 }

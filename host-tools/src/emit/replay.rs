@@ -1,6 +1,7 @@
 //! A drawing drawn by the core on this machine: what decides whether a smaller set of features gives the same bytes.
 
 use std::cell::Cell;
+use std::convert::Infallible;
 use std::iter::{Repeat, Zip, repeat};
 use std::slice::IterMut;
 
@@ -267,17 +268,21 @@ impl<V: varying::Varying<Values = [i32; N]>, const N: usize> Antialiased for Dyn
 }
 
 /// A depth buffer with the drawing's rule, or none, that counts.
-struct Chosen<'a> {
-    cells: Buffer<'a, u16>,
-    rule: Option<Nearer>,
-    spans: &'a Cell<u64>,
-    covered: &'a Cell<u64>,
+pub(super) struct Chosen<'a> {
+    pub(super) cells: Buffer<'a, u16>,
+    pub(super) rule: Option<Nearer>,
+    pub(super) spans: &'a Cell<u64>,
+    pub(super) covered: &'a Cell<u64>,
 }
 
 impl<'b> Depth for Chosen<'b> {
     type Cell<'a> = (&'a mut u16, (Option<Nearer>, &'b Cell<u64>));
     type Cells<'a>
         = Zip<IterMut<'a, u16>, Repeat<(Option<Nearer>, &'b Cell<u64>)>>
+    where
+        Self: 'a;
+    type Block<'a>
+        = Infallible
     where
         Self: 'a;
     const ENABLED: bool = true;
@@ -291,6 +296,16 @@ impl<'b> Depth for Chosen<'b> {
         let right = span.right as usize;
         let cells = &mut self.cells.row(span.row)[left..right];
         cells.iter_mut().zip(repeat((self.rule, self.covered)))
+    }
+    /// None: small triangles are counted span by span, too.
+    fn block(&mut self, _: &Window, _: usize, _: usize) -> Option<Infallible> {
+        None
+    }
+    fn block_cells<'a, 'c: 'a>(block: &'a mut Infallible, _: usize, _: usize) -> Self::Cells<'a>
+    where
+        Self: 'c,
+    {
+        match *block {}
     }
     fn test((cell, (rule, covered)): Self::Cell<'_>, depth: u32) -> bool {
         covered.set(covered.get() + 1);
