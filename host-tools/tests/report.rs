@@ -305,6 +305,10 @@ fn the_chart_shows_what_the_sweep_found() {
         "exact+perspective=32-bit",
         "exact+perspective=spans",
         "exact+perspective=affine",
+        "exact+depth=off",
+        "exact+output=565",
+        "exact+output=565-dither",
+        "exact+output=1-bit",
     ];
     for name in names {
         assert!(page.contains(&format!(">{name}</text>")), "{name}");

@@ -1,13 +1,18 @@
 //! Dials: where a picture may do without some of the core's accuracy, for the sake of speed. Tiers set all of them at once.
 //!
-//! A dial is turned by picking other types of the core. Coverage is exact in every tier: no dial moves an edge. Depth is within
-//! a step of that of exact, as it may be interpolated in words of 32 bits, too.
+//! A dial is turned by picking other types of the core. The tiers are those of [`fixel::quality`], but for one thing: the host's
+//! picture has bytes, so that the tiers' [`Quality::Color`](fixel::quality::Quality::Color), which is for RGB565 targets, is a
+//! dial of its own here. Coverage is exact whatever the dials, of the corners that there are; that of trigonometry alone moves
+//! corners. Depth is within a step of that of exact, as it may be interpolated in words of 32 bits, too.
 
 use std::fmt;
 
 use clap::ValueEnum;
-use fixel::num::Word;
+use fixel::error::Error;
+use fixel::matrix::{Directions, Matrix};
+use fixel::num::{Angle, Block, ShortSine, SineTable, Word};
 
+use super::output::Output;
 use crate::scene::{Fault, Scene};
 
 /// All dials set at once.
@@ -57,15 +62,106 @@ pub enum Lighting {
     Vertex,
 }
 
+/// How lights compute directions and powers: see [`fixel::num::Precision`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// [`fixel::num::TwoSteps`].
+    #[default]
+    TwoSteps,
+    /// [`fixel::num::OneStep`].
+    OneStep,
+    /// [`fixel::num::Table`].
+    Table,
+}
+
+/// Where rotations get sine and cosine from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Trigonometry {
+    /// [`SineTable`]: words of 64 bits and a polynomial.
+    #[default]
+    Long,
+    /// [`ShortSine`]: entries of 16 bits and a straight line.
+    Short,
+}
+
+impl Trigonometry {
+    /// [`Matrix::rotation`].
+    ///
+    /// # Errors
+    /// Those.
+    pub fn rotation(self, angle: Angle, axis: Block<i64, 3>) -> Result<Matrix<i64>, Error> {
+        match self {
+            Trigonometry::Long => Matrix::rotation::<SineTable>(angle, axis),
+            Trigonometry::Short => Matrix::rotation::<ShortSine>(angle, axis),
+        }
+    }
+
+    /// [`Matrix::camera`].
+    ///
+    /// # Errors
+    /// Those.
+    pub fn camera(self, position: Block<i64, 3>, axis: Block<i64, 3>, angle: Angle) -> Result<Matrix<i64>, Error> {
+        match self {
+            Trigonometry::Long => Matrix::camera::<SineTable>(position, axis, angle),
+            Trigonometry::Short => Matrix::camera::<ShortSine>(position, axis, angle),
+        }
+    }
+
+    /// [`Directions::rotate`].
+    ///
+    /// # Errors
+    /// Those.
+    pub fn rotate(self, directions: &mut Directions<i64>, angle: Angle, axis: Block<i64, 3>) -> Result<(), Error> {
+        match self {
+            Trigonometry::Long => directions.rotate::<SineTable>(angle, axis),
+            Trigonometry::Short => directions.rotate::<ShortSine>(angle, axis),
+        }
+    }
+}
+
+/// How colours that are linear over the screen come to the pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Colors {
+    /// [`fixel::varying::Linear`]: a word a channel, kept within the corners'.
+    #[default]
+    Exact,
+    /// [`fixel::varying::Linear32`]: a word a channel, by slopes.
+    Narrow,
+    /// [`fixel::varying::Color565`]: two channels a word, for RGB565 targets.
+    Packed,
+}
+
+/// How texels make a colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Sampling {
+    /// The texel in which the place lies, as the formats want it.
+    #[default]
+    Nearest,
+    /// The four texels around it.
+    Linear,
+}
+
 /// The dials. By default they are set as for [`Tier::Exact`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dials {
     /// Of values in perspective.
     pub perspective: Perspective,
+    /// Of lights.
+    pub precision: Precision,
+    /// Of rotations.
+    pub trigonometry: Trigonometry,
     /// Where light is computed.
     pub lighting: Lighting,
+    /// Of colours that are linear over the screen.
+    pub colors: Colors,
+    /// Of textures.
+    pub sampling: Sampling,
+    /// Whether there is no depth buffer, of a scene that asks for one; with values in perspective as for [`Tier::Exact`].
+    pub no_depth: bool,
     /// Whether sRGB colours are blended as they are stored, without being decoded and encoded again.
     pub stored_light: bool,
+    /// What the picture is shown on. Drawing does not ask for it: see [`Output::words`].
+    pub output: Output,
 }
 
 /// A dial.
@@ -73,15 +169,37 @@ pub struct Dials {
 pub enum Dial {
     /// [`Dials::perspective`].
     Perspective,
+    /// [`Dials::precision`].
+    Precision,
+    /// [`Dials::trigonometry`].
+    Trigonometry,
     /// [`Dials::lighting`].
     Lighting,
+    /// [`Dials::colors`].
+    Colors,
+    /// [`Dials::sampling`].
+    Sampling,
+    /// [`Dials::no_depth`].
+    Depth,
     /// [`Dials::stored_light`].
     StoredLight,
+    /// [`Dials::output`].
+    Output,
 }
 
 impl Dial {
     /// All of them.
-    pub const ALL: [Dial; 3] = [Dial::Perspective, Dial::Lighting, Dial::StoredLight];
+    pub const ALL: [Dial; 9] = [
+        Dial::Perspective,
+        Dial::Precision,
+        Dial::Trigonometry,
+        Dial::Lighting,
+        Dial::Colors,
+        Dial::Sampling,
+        Dial::Depth,
+        Dial::StoredLight,
+        Dial::Output,
+    ];
 }
 
 /// A dial turned away from where it is for [`Tier::Exact`].
@@ -94,33 +212,37 @@ pub struct Change {
 }
 
 /// All settings of single dials.
-pub const CHANGES: [Change; 5] = [
-    Change {
-        name: "perspective=32-bit",
-        dial: Dial::Perspective,
-        set: |dials| dials.perspective = Perspective::Narrow,
-    },
-    Change {
-        name: "perspective=spans",
-        dial: Dial::Perspective,
-        set: |dials| dials.perspective = Perspective::Spans,
-    },
-    Change {
-        name: "perspective=affine",
-        dial: Dial::Perspective,
-        set: |dials| dials.perspective = Perspective::Affine,
-    },
-    Change {
-        name: "lighting=vertex",
-        dial: Dial::Lighting,
-        set: |dials| dials.lighting = Lighting::Vertex,
-    },
-    Change {
-        name: "linear-light=off",
-        dial: Dial::StoredLight,
-        set: |dials| dials.stored_light = true,
-    },
+pub const CHANGES: [Change; 15] = [
+    change("perspective=32-bit", Dial::Perspective, |d| {
+        d.perspective = Perspective::Narrow
+    }),
+    change("perspective=spans", Dial::Perspective, |d| {
+        d.perspective = Perspective::Spans
+    }),
+    change("perspective=affine", Dial::Perspective, |d| {
+        d.perspective = Perspective::Affine
+    }),
+    change("precision=one-step", Dial::Precision, |d| {
+        d.precision = Precision::OneStep
+    }),
+    change("precision=table", Dial::Precision, |d| d.precision = Precision::Table),
+    change("trigonometry=short", Dial::Trigonometry, |d| {
+        d.trigonometry = Trigonometry::Short
+    }),
+    change("lighting=vertex", Dial::Lighting, |d| d.lighting = Lighting::Vertex),
+    change("colors=32-bit", Dial::Colors, |d| d.colors = Colors::Narrow),
+    change("colors=packed", Dial::Colors, |d| d.colors = Colors::Packed),
+    change("sampling=linear", Dial::Sampling, |d| d.sampling = Sampling::Linear),
+    change("depth=off", Dial::Depth, |d| d.no_depth = true),
+    change("linear-light=off", Dial::StoredLight, |d| d.stored_light = true),
+    change("output=565", Dial::Output, |d| d.output = Output::Rgb565),
+    change("output=565-dither", Dial::Output, |d| d.output = Output::Dithered565),
+    change("output=1-bit", Dial::Output, |d| d.output = Output::OneBit),
 ];
+
+const fn change(name: &'static str, dial: Dial, set: fn(&mut Dials)) -> Change {
+    Change { name, dial, set }
+}
 
 impl Change {
     /// The dials with this one turned.
@@ -134,18 +256,21 @@ impl Change {
 pub const LARGEST: u32 = <i32 as Word>::GUARD as u32;
 
 impl Dials {
-    /// The dials of a tier.
+    /// The dials of a tier: those of the core's [`Fast`](fixel::quality::Fast), [`Balanced`](fixel::quality::Balanced) and
+    /// [`Exact`](fixel::quality::Exact).
     pub fn of(tier: Tier) -> Self {
         match tier {
             Tier::Exact => Dials::default(),
             Tier::Balanced => Dials {
                 perspective: Perspective::Narrow,
+                precision: Precision::OneStep,
                 ..Dials::default()
             },
             Tier::Fast => Dials {
                 perspective: Perspective::Spans,
-                lighting: Lighting::Vertex,
-                stored_light: true,
+                precision: Precision::Table,
+                trigonometry: Trigonometry::Short,
+                ..Dials::default()
             },
         }
     }
@@ -160,8 +285,14 @@ impl Dials {
         let exact = Dials::default();
         match dial {
             Dial::Perspective => self.perspective = exact.perspective,
+            Dial::Precision => self.precision = exact.precision,
+            Dial::Trigonometry => self.trigonometry = exact.trigonometry,
             Dial::Lighting => self.lighting = exact.lighting,
+            Dial::Colors => self.colors = exact.colors,
+            Dial::Sampling => self.sampling = exact.sampling,
+            Dial::Depth => self.no_depth = exact.no_depth,
             Dial::StoredLight => self.stored_light = exact.stored_light,
+            Dial::Output => self.output = exact.output,
         }
         self
     }

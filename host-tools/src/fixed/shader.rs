@@ -43,20 +43,36 @@ pub trait Canvas: Any + Sized {
     /// How accurately.
     fn dials(&self) -> Dials;
 
-    /// Draws one triangle, given where the view wants it, and writes nothing down.
-    fn paint<F>(&mut self, place: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
-    where
+    /// Draws one triangle, given where the view wants it, with a depth buffer or without, and writes nothing down.
+    fn paint<F, const DEPTH: bool>(
+        &mut self,
+        place: [Block<i64, 4>; 3],
+        carried: [<F::Varying as Carried>::Vertex; 3],
+        fragment: &F,
+    ) where
         F: Fragment<Pixel = Pixel, Varying: Carried>;
 
     /// Writes down what is drawn of a triangle, if somebody wants it.
     fn record<V: Carried + Read>(&mut self, place: [Block<i64, 4>; 3], carried: [V::Vertex; 3]);
+
+    /// The same, if its edges are of 32 bits. Wider pictures with other dials than exact have been refused; nothing is compiled
+    /// for them but what is exact.
+    fn narrow(&mut self) -> Option<&mut Self::Narrow> {
+        (self as &mut dyn Any).downcast_mut()
+    }
 
     /// Draws one triangle, given where the view wants it.
     fn draw<F>(&mut self, place: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
     where
         F: Fragment<Pixel = Pixel, Varying: Carried + Read>,
     {
-        self.paint(place, carried, fragment);
+        if self.dials().no_depth {
+            if let Some(canvas) = self.narrow() {
+                canvas.paint::<F, false>(place, carried, fragment);
+            }
+            return;
+        }
+        self.paint::<F, true>(place, carried, fragment);
         self.record::<F::Varying>(place, carried);
     }
 
@@ -70,8 +86,7 @@ pub trait Canvas: Any + Sized {
         match self.dials().perspective {
             dials::Perspective::Exact => self.draw(place, values, &On::<Perspective<K>, S>(shader, PhantomData)),
             setting => {
-                // Wider pictures have been refused; nothing is compiled for them but what is exact.
-                if let Some(canvas) = (self as &mut dyn Any).downcast_mut::<Self::Narrow>() {
+                if let Some(canvas) = self.narrow() {
                     draw_roughly(canvas, setting, place, values, shader);
                 }
             }
@@ -90,11 +105,13 @@ fn draw_roughly<C: Canvas, S: Shader<K>, const K: usize>(
     match setting {
         dials::Perspective::Exact => {}
         dials::Perspective::Narrow => {
-            canvas.paint(place, values, &On::<Perspective32<K>, S>(shader, PhantomData));
+            canvas.paint::<_, true>(place, values, &On::<Perspective32<K>, S>(shader, PhantomData));
         }
         dials::Perspective::Spans => {
-            canvas.paint(place, values, &On::<PerspectiveSpans<K, BOUND>, S>(shader, PhantomData));
+            canvas.paint::<_, true>(place, values, &On::<PerspectiveSpans<K, BOUND>, S>(shader, PhantomData));
         }
-        dials::Perspective::Affine => canvas.paint(place, values, &On::<Linear32<K>, S>(shader, PhantomData)),
+        dials::Perspective::Affine => {
+            canvas.paint::<_, true>(place, values, &On::<Linear32<K>, S>(shader, PhantomData))
+        }
     }
 }

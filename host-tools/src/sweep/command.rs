@@ -21,7 +21,8 @@ const NOTES: &str = "\
 The cost is that of drawing the whole picture with the core, vertices and lights included: instructions of this machine \
 where valgrind is installed, else seconds. A microcontroller's 64-bit arithmetic is dearer.
 
-A pixel's error is the largest difference of its four bytes. Errors are over the pixels that either picture draws.
+A pixel's error is the largest difference of its four bytes. Errors are over the pixels that either picture draws. 4x4 is the \
+mean error of means over 4x4 pixels, for which dither is made; pictures of 1 bit are held against brightness.
 
 Exit codes: 0 done, 1 nothing is within the budget, 2 bad scene or bad usage, 3 file trouble, 4 internal error; of several \
 scenes the largest.";

@@ -1,7 +1,7 @@
 //! What drawing a picture costs: instructions of this machine, counted by valgrind, or else time.
 //!
-//! What is counted is the whole draw, from the scene's numbers to the last pixel, vertices and lights included. It is the host
-//! that counts: 64-bit words are cheap here, and a microcontroller saves more by a cheaper dial.
+//! What is counted is the whole draw, from the scene's numbers to the last pixel, vertices and lights included, and what makes the
+//! words for another output than bytes of it. It is the host that counts: 64-bit words are cheap here, and a microcontroller saves more by a cheaper dial.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -66,8 +66,8 @@ const COUNTED: &str = "sweep_counts_in_here";
 
 /// Draws the picture; valgrind finds it by its name.
 #[inline(never)]
-fn sweep_counts_in_here(scene: &Scene, dials: Dials) -> Result<FixedPicture, Fault> {
-    fixed::draw(scene, dials)
+fn sweep_counts_in_here(scene: &Scene, dials: Dials) -> Result<(FixedPicture, Vec<u16>), Fault> {
+    fixed::draw_out(scene, dials)
 }
 
 /// What valgrind runs: one setting of a scene, drawn once.

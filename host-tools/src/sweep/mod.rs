@@ -17,6 +17,7 @@ pub use cost::Unit;
 pub use errors::Errors;
 pub use front::{Budget, pareto, recommended};
 pub use settings::{Setting, setting, settings};
+pub use table::mean_4x4;
 
 use rayon::prelude::*;
 
@@ -46,7 +47,7 @@ pub struct Sweep {
     pub scene: String,
     /// Width and height of the picture.
     pub size: (u32, u32),
-    /// Pixels that the core draws: no dial changes which.
+    /// Pixels that the core draws with the dials of exact: no dial changes which, but that of trigonometry near edges.
     pub pixels: u64,
     /// What costs are counted in.
     pub unit: Unit,
@@ -73,7 +74,10 @@ pub fn sweep(loaded: &Loaded, args: &Args) -> Result<Sweep, Failure> {
     let compared = unique.par_iter().map(|setting| {
         let fixed = fixed::draw(&loaded.scene, setting.dials)?;
         let comparison = reference.compare(&fixed)?;
-        Ok((Errors::new(&fixed, &bytes, &comparison), comparison.pixels_drawn))
+        let output = setting.dials.output;
+        let (shown, wanted) = (output.shown(fixed), errors::wanted(&bytes, output));
+        let errors = Errors::new(&shown, &wanted, comparison.coverage_differs);
+        Ok((errors, comparison.pixels_drawn))
     });
     let compared: Vec<_> = compared.collect::<Result<_, _>>().map_err(failed)?;
     let (unit, costs) = cost::costs(loaded, args, &unique)?;

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::{Budget, Point, Sweep, Unit, recommended};
+use super::{Budget, Errors, Point, Sweep, Unit, recommended};
 
 impl Sweep {
     /// A table, and what is recommended for the budget.
@@ -12,7 +12,7 @@ impl Sweep {
         let (width, height) = self.size;
         let name = self.points.iter().map(|point| point.name.len()).max().unwrap_or(0);
         let mut text = format!(
-            "{}: {width}x{height}, {} pixels drawn; errors against float64 in levels of 255\n  {:name$} {:>12} {:>9} {:>4} {:>6} {:>8} {:>9} {:>8}\n",
+            "{}: {width}x{height}, {} pixels drawn; errors against float64 in levels of 255\n  {:name$} {:>12} {:>9} {:>4} {:>6} {:>7} {:>7} {:>8} {:>8}\n",
             self.scene,
             self.pixels,
             "",
@@ -21,7 +21,8 @@ impl Sweep {
             "max",
             "99.9 %",
             "mean",
-            "differing",
+            "4x4",
+            "differ",
             "coverage",
         );
         for point in &self.points {
@@ -30,18 +31,22 @@ impl Sweep {
             // Writing into a string cannot fail.
             let _ = writeln!(
                 text,
-                "{mark} {:name$} {:>12} {:>9} {:>4} {:>6} {:>8.3} {:>7.2} % {:>8}",
+                "{mark} {:name$} {:>12} {:>9} {:>4} {:>6} {:>7.3} {:>7} {:>6.2} % {:>8}",
                 point.name,
                 self.unit.number(point.cost),
                 self.unit.per_pixel(self.per_pixel(point)),
                 errors.max,
                 errors.p999,
                 errors.mean,
+                mean_4x4(errors),
                 100.0 * errors.differing_share,
                 errors.coverage_differs,
             );
         }
-        text.push_str("* nothing is as cheap and has as small a mean error\n");
+        text.push_str(
+            "* nothing is as cheap and has as small a mean error; 4x4: mean error of means over 4x4 pixels,\n",
+        );
+        text.push_str("  which dither is made for; 1-bit is held against brightness\n");
         if !budget.is_open() {
             text.push_str(&self.advice(budget));
         }
@@ -74,6 +79,7 @@ impl Sweep {
                 "cost": point.cost,
                 "cost_unit": self.unit.name(),
                 "pareto": point.pareto,
+                "mean_error_4x4": point.errors.mean_4x4,
             })
         };
         let mut object = json!({
@@ -92,7 +98,7 @@ impl Sweep {
         let row = |point: &Point| {
             let errors = &point.errors;
             format!(
-                "{},{},{},{},{},{},{},{},{},{}\n",
+                "{},{},{},{},{},{},{},{},{},{},{}\n",
                 quoted(&self.scene),
                 point.name,
                 errors.max,
@@ -103,6 +109,7 @@ impl Sweep {
                 point.cost,
                 self.unit.name(),
                 point.pareto,
+                errors.mean_4x4.map(|mean| mean.to_string()).unwrap_or_default(),
             )
         };
         self.points.iter().map(row).collect()
@@ -110,8 +117,14 @@ impl Sweep {
 }
 
 /// What the columns of [`Sweep::csv`] are.
-pub const CSV_HEADER: &str =
-    "scene,name,max_error,p999_error,mean_error,differing_share,coverage_differs,cost,cost_unit,pareto\n";
+pub const CSV_HEADER: &str = "scene,name,max_error,p999_error,mean_error,differing_share,coverage_differs,cost,cost_unit,pareto,mean_error_4x4\n";
+
+/// [`Errors::mean_4x4`] in digits.
+pub fn mean_4x4(errors: &Errors) -> String {
+    errors
+        .mean_4x4
+        .map_or_else(|| "-".to_owned(), |mean| format!("{mean:.3}"))
+}
 
 /// A field with whatever it holds.
 fn quoted(field: &str) -> String {

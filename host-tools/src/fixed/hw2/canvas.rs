@@ -1,7 +1,7 @@
 //! The picture that grows, and the view that brings triangles onto it.
 
 use fixel::clip::Planes;
-use fixel::depth::{DepthBuffer, FAR, LessOrEqual};
+use fixel::depth::{DepthBuffer, FAR, LessOrEqual, NoDepth};
 use fixel::draw;
 use fixel::fragment::Fragment;
 use fixel::num::{Block, Word};
@@ -95,8 +95,12 @@ impl<W: Word> shader::Canvas for Canvas<W> {
         self.dials
     }
 
-    fn paint<F>(&mut self, eye: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
-    where
+    fn paint<F, const DEPTH: bool>(
+        &mut self,
+        eye: [Block<i64, 4>; 3],
+        carried: [<F::Varying as Carried>::Vertex; 3],
+        fragment: &F,
+    ) where
         F: Fragment<Pixel = Pixel, Varying: Carried>,
     {
         let corners = corners(eye, carried);
@@ -107,7 +111,12 @@ impl<W: Word> shader::Canvas for Canvas<W> {
             // As `draw::primitive`, but that its rows are compiled once for both views.
             let mut polygon = |shape: &dyn Outlined<F::Varying>| {
                 let shape = &Outline(shape);
-                draw::polygon::<W, _, _, _, _>(&mut color, &mut depth, shape, doubled_area(shape), fragment);
+                let area = doubled_area(shape);
+                if DEPTH {
+                    draw::polygon::<W, _, _, _, _>(&mut color, &mut depth, shape, area, fragment);
+                } else {
+                    draw::polygon::<W, _, _, _, _>(&mut color, &mut NoDepth, shape, area, fragment);
+                }
             };
             if let Some(view) = &mut self.cut {
                 follow(view, &self.view);

@@ -1,20 +1,20 @@
 //! Fragment programs, put together from parts: a surface, where its normal comes from, whether it knows its place, and how
 //! it shines. A program carries the values of its parts and nothing else: the surface's first, then normal and place.
 
-use fixel::light::{Finish, Lit};
-use fixel::num::power;
-use fixel::texture::{Floor, Nearest, Rgba8888};
+use fixel::light::Finish;
+use fixel::num::{Precision, power};
+use fixel::texture::Floor;
 
-use super::lamps::BULBS;
-use crate::fixed::Pixel;
+use super::lamps::Lit;
 use crate::fixed::shader::Shader;
+use crate::fixed::{Pixel, sampling};
 use crate::lower;
 
 /// Values that are still to be taken.
 type Rest<'v> = &'v [i32];
 
-/// Nearest texels as HW2 rounds.
-pub type Sampler<'t> = Nearest<'t, Rgba8888, Floor>;
+/// Texels as HW2 rounds.
+pub type Sampler<'t> = sampling::Sampler<'t, Floor>;
 
 /// What gives a surface its colour before light.
 pub trait Surface {
@@ -144,31 +144,31 @@ impl<S: Surface, const K: usize> Shader<K> for InGivenLight<S> {
     }
 }
 
-/// A surface under lights, with normals from `N`, places from `P` and the finish `F`.
-pub struct UnderLight<'a, S, N, P, F> {
+/// A surface under lights, with normals from `N` and places from `P`.
+pub struct UnderLight<'a, S, N, P> {
     /// The surface.
     pub surface: S,
     /// Where normals come from.
     pub normal: N,
     /// Where places come from.
     pub place: P,
-    /// How it shines.
-    pub finish: F,
+    /// How it shines, if it does.
+    pub polish: Option<Polished>,
     /// The lights at the places' scale.
-    pub lit: &'a Lit<'a, BULBS>,
+    pub lit: &'a Lit<'a>,
     /// What is lit is in units of 2^(shift − 16) levels.
     pub shift: i32,
     /// Stored with every pixel.
     pub primitive: u32,
 }
 
-impl<S: Surface, N: Vector, P: Vector, F: Finish, const K: usize> Shader<K> for UnderLight<'_, S, N, P, F> {
+impl<S: Surface, N: Vector, P: Vector, const K: usize> Shader<K> for UnderLight<'_, S, N, P> {
     #[inline]
     fn shaded(&self, values: [i32; K]) -> Pixel {
         let (color, rest) = self.surface.color(&values);
         let (normal, rest) = self.normal.vector(rest);
         let (place, _) = self.place.vector(rest);
-        let lit = self.lit.shade_wide(normal, place, color, &self.finish);
+        let lit = self.lit.shade(normal, place, color, self.polish.as_ref());
         pixel(lit, self.shift, self.primitive)
     }
 }
@@ -191,6 +191,14 @@ impl Polished {
             highlight: (255 << (16 - lower::LIT)) >> down,
         }
     }
+
+    /// On white, where 2^16 is full.
+    pub fn white(exponent: u32) -> Self {
+        Polished {
+            exponent,
+            highlight: 1 << 16,
+        }
+    }
 }
 
 impl Finish for Polished {
@@ -198,6 +206,10 @@ impl Finish for Polished {
     #[inline]
     fn strength(&self, cosine: i32) -> i32 {
         power(cosine, self.exponent)
+    }
+    #[inline]
+    fn strength_at<P: Precision>(&self, cosine: i32) -> i32 {
+        P::power(cosine, self.exponent)
     }
     #[inline(always)]
     fn highlight(&self) -> i32 {

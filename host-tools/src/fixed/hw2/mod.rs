@@ -33,7 +33,7 @@ pub struct Fixed(Box<dyn Renderer>);
 trait Renderer: BackEnd {
     /// From now on what is drawn is written down.
     fn record(&mut self, log: Log);
-    /// From now on the dials are set so.
+    /// The dials are set so, before anything is drawn or lit.
     fn set(&mut self, dials: Dials);
     fn finish(self: Box<Self>) -> (FixedPicture, Option<Log>);
 }
@@ -70,7 +70,7 @@ impl Fixed {
         Fixed(Box::new(scene::Scene::new(viewport, window)))
     }
 
-    /// With the dials set so. Beyond [`dials::LARGEST`](crate::fixed::dials::LARGEST) pixels a side, where edges are wider,
+    /// With the dials set so, before the first command. Beyond [`dials::LARGEST`](crate::fixed::dials::LARGEST) pixels a side, where edges are wider,
     /// that of perspective stays exact.
     pub fn with(mut self, dials: Dials) -> Self {
         self.0.set(dials);

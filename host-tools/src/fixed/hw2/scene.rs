@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::matrix::{Directions, Matrix};
-use fixel::num::{Block, Scaled, SineTable, Word};
+use fixel::num::{Block, Scaled, Word};
 use fixel::patch::{Level, PatchVertex};
 use fixel::texture::{Rgba8888, Texture};
 use fixel::view::{Cull, View};
@@ -20,7 +20,7 @@ use super::shade::{self, Look, Paint};
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
 use crate::emit::log::Log;
 use crate::fixed::FixedPicture;
-use crate::fixed::dials::Dials;
+use crate::fixed::dials::{Dials, Precision};
 use crate::lower;
 use crate::picture::Picture;
 
@@ -56,7 +56,7 @@ impl<W: Word> Scene<W> {
             state: State {
                 model_view: Matrix::identity(),
                 directions: Directions::identity(),
-                lamps: Lamps::new(),
+                lamps: Lamps::new(Precision::default()),
                 shininess: None,
                 texture: None,
                 decals: false,
@@ -162,12 +162,11 @@ impl<W: Word> BackEnd for Scene<W> {
 
     fn rotate(&mut self, degrees: f64, axis: [f64; 3]) -> Result<(), String> {
         let (angle, axis) = (lower::angle(degrees), lower::block(axis));
-        let rotation = Matrix::rotation::<SineTable>(angle, axis).map_err(|e| e.to_string())?;
+        let trigonometry = self.canvas.dials.trigonometry;
+        let rotation = trigonometry.rotation(angle, axis).map_err(|e| e.to_string())?;
         self.state.multiply(&rotation);
-        self.state
-            .directions
-            .rotate::<SineTable>(angle, axis)
-            .map_err(|e| e.to_string())
+        let turned = trigonometry.rotate(&mut self.state.directions, angle, axis);
+        turned.map_err(|e| e.to_string())
     }
 
     fn scale(&mut self, by: [f64; 3]) -> Result<(), String> {
@@ -278,6 +277,7 @@ impl<W: Word> Renderer for Scene<W> {
 
     fn set(&mut self, dials: Dials) {
         self.canvas.dials = dials;
+        self.state.lamps = Lamps::new(dials.precision);
     }
 
     fn finish(self: Box<Self>) -> (FixedPicture, Option<Log>) {

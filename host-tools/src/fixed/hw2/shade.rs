@@ -3,20 +3,19 @@
 use std::sync::Arc;
 
 use fixel::fragment::Flat;
-use fixel::light::{Finish, Lit, Matte, Shiny};
 use fixel::num::Word;
 use fixel::texture::{Rgba8888, Texture};
 
 use super::canvas::Canvas;
 use super::corner::{self, Corner};
-use super::lamps::{AtScale, BULBS, Lamps};
+use super::lamps::{AtScale, Lamps, Lit};
 use super::material::{
     Decal, Gouraud, InGivenLight, Interpolated, Plain, Polished, Same, Sampler, Surface, Textured, UnderLight, Unlit,
     Vector, pixel,
 };
 use crate::emit::drawing::{self, Lights, Program, Sampled};
 use crate::emit::log::Log;
-use crate::fixed::dials::{Lighting, Perspective};
+use crate::fixed::dials::{Lighting, Perspective, Sampling};
 use crate::fixed::shader::{Canvas as _, Shader};
 use crate::fixed::{Pixel, texcoord};
 use crate::picture::Picture;
@@ -70,7 +69,7 @@ const SPANS_HEADROOM: u32 = 6;
 /// What light needs to know of a triangle.
 #[derive(Clone, Copy)]
 struct Light<'a> {
-    lit: &'a Lit<'a, BULBS>,
+    lit: &'a Lit<'a>,
     lamps: &'a Lamps,
     /// Of the unit of places.
     exponent: i32,
@@ -105,10 +104,15 @@ const LIGHT_BITS: u32 = 30 - HEADROOM;
 
 impl Light<'_> {
     /// What is lit at the corners, in a unit 2^down times as large, and down.
-    fn at_corners<F: Finish>(&self, corners: &[Corner; 3], surface: [[i32; 3]; 3], finish: &F) -> ([[i32; 3]; 3], i32) {
+    fn at_corners(
+        &self,
+        corners: &[Corner; 3],
+        surface: [[i32; 3]; 3],
+        polish: Option<&Polished>,
+    ) -> ([[i32; 3]; 3], i32) {
         let lit: [_; 3] = std::array::from_fn(|i| {
             let normal = self.flat_normal.or(corners[i].normal).unwrap_or_default();
-            self.lit.shade_wide(normal, self.places[i], surface[i], finish)
+            self.lit.shade(normal, self.places[i], surface[i], polish)
         });
         let all_bits = lit.as_flattened().iter().fold(0, |bits, c| bits | c.unsigned_abs());
         let down = (u64::BITS - all_bits.leading_zeros()).saturating_sub(LIGHT_BITS);
@@ -128,6 +132,7 @@ pub fn triangle<W: Word>(
     primitive: u32,
 ) -> Result<(), String> {
     let in_spans = canvas.dials.perspective == Perspective::Spans;
+    let sampling = canvas.dials.sampling;
     let headroom = match (canvas.divides_by_both_signs(corners.map(|c| c.eye)), in_spans) {
         (true, _) => HEADROOM,
         (false, true) => SPANS_HEADROOM,
@@ -162,12 +167,12 @@ pub fn triangle<W: Word>(
             work.surface::<_, 3, 6, 9>(Gouraud, colors);
         }
         Paint::Textured(texture) => {
-            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom, most_bits)?;
+            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom, most_bits, sampling)?;
             work.describe(|log| drawing::Surface::Textured(look.sampled(log, fraction_bits)));
             work.surface::<_, 2, 5, 8>(Textured(sampler), st);
         }
         Paint::Decal(texture) => {
-            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom, most_bits)?;
+            let (st, sampler, fraction_bits) = sampler(texture, corners, headroom, most_bits, sampling)?;
             let shift = look.shift.unsigned_abs();
             work.describe(|log| drawing::Surface::Decal(look.sampled(log, fraction_bits), shift));
             work.surface::<_, 5, 8, 11>(Decal { sampler, shift }, side_by_side(colors, st));
@@ -182,6 +187,7 @@ fn sampler<'t>(
     corners: &[Corner; 3],
     headroom: u32,
     most_bits: i32,
+    sampling: Sampling,
 ) -> Result<([[i32; 2]; 3], Sampler<'t>, u32), String> {
     let (st, fraction_bits) = texcoord::texels(
         corners.map(|corner| corner.texcoord),
@@ -190,10 +196,15 @@ fn sampler<'t>(
         most_bits,
         texcoord::middle,
     )?;
-    Ok((st, Sampler::new(texture, fraction_bits), fraction_bits))
+    Ok((st, Sampler::new(texture, fraction_bits, sampling), fraction_bits))
 }
 
 impl Look<'_> {
+    /// Of the surface's colours.
+    fn polish(&self) -> Option<Polished> {
+        self.shininess.map(|exponent| Polished::new(exponent, self.shift))
+    }
+
     fn sampled(&self, log: &mut Log, fraction_bits: u32) -> Sampled {
         Sampled {
             texture: self.picture.map_or(0, |picture| log.texture(picture)),
@@ -214,10 +225,7 @@ impl<W: Word> Work<'_, W> {
                 exponent: light.exponent,
                 normal: light.flat_normal,
                 places: look.shininess.is_some() || light.lamps.has_bulbs(),
-                shiny: look.shininess.map(|exponent| {
-                    let polished = Polished::new(exponent, look.shift);
-                    (exponent, polished.highlight())
-                }),
+                shiny: look.polish().map(|polished| (polished.exponent, polished.highlight)),
             });
             let lights_shift = light.map_or(0, |light| light.lamps.shift());
             Program::Surface {
@@ -248,15 +256,16 @@ impl<W: Word> Work<'_, W> {
     /// Light computed at the corners.
     fn lit_at_corners(self, light: Light<'_>, headroom: u32) -> Result<(), String> {
         let colors = self.corners.map(|c| c.color);
+        let sampling = self.canvas.dials.sampling;
         match self.look.paint {
             Paint::Plain(color) => self.lit_colors(light, [color; 3]),
             Paint::Gouraud => self.lit_colors(light, colors),
             Paint::Textured(texture) => {
-                let (st, sampler, _) = sampler(texture, self.corners, headroom, texcoord::FINE)?;
+                let (st, sampler, _) = sampler(texture, self.corners, headroom, texcoord::FINE, sampling)?;
                 self.in_given_light::<_, 2, 5>(light, Textured(sampler), st);
             }
             Paint::Decal(texture) => {
-                let (st, sampler, _) = sampler(texture, self.corners, headroom, texcoord::FINE)?;
+                let (st, sampler, _) = sampler(texture, self.corners, headroom, texcoord::FINE, sampling)?;
                 let shift = self.look.shift.unsigned_abs();
                 self.in_given_light::<_, 5, 8>(light, Decal { sampler, shift }, side_by_side(colors, st));
             }
@@ -266,10 +275,8 @@ impl<W: Word> Work<'_, W> {
 
     /// The corners' colours are lit.
     fn lit_colors(self, light: Light<'_>, colors: [[i32; 3]; 3]) {
-        let (colors, down) = match self.look.shininess {
-            Some(exponent) => light.at_corners(self.corners, colors, &Polished::new(exponent, self.look.shift)),
-            None => light.at_corners(self.corners, colors, &Matte),
-        };
+        let polish = self.look.polish();
+        let (colors, down) = light.at_corners(self.corners, colors, polish.as_ref());
         let program = Unlit {
             surface: Gouraud,
             shift: self.look.shift.saturating_add(light.lamps.shift()) + down,
@@ -286,10 +293,8 @@ impl<W: Word> Work<'_, W> {
         carried: [[i32; A]; 3],
     ) {
         let full = [[1 << 16; 3]; 3];
-        let (lights, down) = match self.look.shininess {
-            Some(exponent) => light.at_corners(self.corners, full, &Shiny(exponent)),
-            None => light.at_corners(self.corners, full, &Matte),
-        };
+        let polish = self.look.shininess.map(Polished::white);
+        let (lights, down) = light.at_corners(self.corners, full, polish.as_ref());
         let program = InGivenLight {
             surface,
             shift: self.look.shift.saturating_add(light.lamps.shift()) + down,
@@ -322,46 +327,33 @@ impl<W: Word> Work<'_, W> {
         S: Surface,
     {
         let (here, nowhere) = (Interpolated, Same([0; 3]));
-        let shift = self.look.shift;
-        let polish = |exponent| Polished::new(exponent, shift);
-        match (
-            self.look.shininess,
-            light.flat_normal.map(Same),
-            light.lamps.has_bulbs(),
-        ) {
-            (Some(a), Some(own), _) => self.run::<_, _, _, _, A, B>(light, carried, surface, own, here, polish(a)),
-            (Some(a), None, _) => {
-                self.run::<_, _, _, _, A, C>(light, carried, surface, Interpolated, here, polish(a));
-            }
-            (None, Some(own), true) => self.run::<_, _, _, _, A, B>(light, carried, surface, own, here, Matte),
-            (None, None, true) => self.run::<_, _, _, _, A, C>(light, carried, surface, Interpolated, here, Matte),
-            (None, Some(own), false) => self.run::<_, _, _, _, A, A>(light, carried, surface, own, nowhere, Matte),
-            (None, None, false) => {
-                self.run::<_, _, _, _, A, B>(light, carried, surface, Interpolated, nowhere, Matte);
-            }
+        let in_place = self.look.shininess.is_some() || light.lamps.has_bulbs();
+        match (light.flat_normal.map(Same), in_place) {
+            (Some(own), true) => self.run::<_, _, _, A, B>(light, carried, surface, own, here),
+            (None, true) => self.run::<_, _, _, A, C>(light, carried, surface, Interpolated, here),
+            (Some(own), false) => self.run::<_, _, _, A, A>(light, carried, surface, own, nowhere),
+            (None, false) => self.run::<_, _, _, A, B>(light, carried, surface, Interpolated, nowhere),
         }
     }
 
     /// Draws with one program: the corners carry the surface's A values and what else the program takes, K in all.
-    fn run<S, N, P, F, const A: usize, const K: usize>(
+    fn run<S, N, P, const A: usize, const K: usize>(
         self,
         light: Light<'_>,
         carried: [[i32; A]; 3],
         surface: S,
         normal: N,
         place: P,
-        finish: F,
     ) where
         S: Surface,
         N: Vector,
         P: Vector,
-        F: Finish,
     {
         let program = UnderLight {
             surface,
             normal,
             place,
-            finish,
+            polish: self.look.polish(),
             lit: light.lit,
             shift: self.look.shift.saturating_add(light.lamps.shift()),
             primitive: self.primitive,

@@ -1,21 +1,81 @@
 //! Lights and materials as the core takes them.
 
 use fixel::light::Matte;
-use fixel::light::world::{FULL, Glossy, Material, PointLight, PointLights};
-use fixel::num::Block;
+use fixel::light::world::{FULL, Glossy, Material, PointLight, PointLights, PointLit, Specular};
+use fixel::num::{self, Block, OneStep, Table, TwoSteps};
 
+use crate::fixed::dials::Precision;
 use crate::lower;
 use crate::scene::iv::{self, Light, Scene};
 
 /// Lights that a scene may have.
 pub const LIGHTS: usize = 1024;
 
-/// The eye and the lights of a scene, seen from `origin`: so far from it that an object far away from the world's origin does
-/// not lose the places of the lights beside it.
-///
-/// # Errors
-/// More lights than there is room for.
-pub fn lights(scene: &Scene, origin: Block<i64, 3>) -> Result<PointLights<i64, LIGHTS>, String> {
+/// The eye and the lights of a scene at a precision.
+pub enum AllLights {
+    /// That of exact.
+    TwoSteps(PointLights<i64, LIGHTS, TwoSteps>),
+    /// That of balanced.
+    OneStep(PointLights<i64, LIGHTS, OneStep>),
+    /// That of fast.
+    Table(PointLights<i64, LIGHTS, Table>),
+}
+
+impl AllLights {
+    /// Those of a scene, seen from `origin`: so far from it that an object far away from the world's origin does not lose the
+    /// places of the lights beside it.
+    ///
+    /// # Errors
+    /// More lights than there is room for.
+    pub fn new(scene: &Scene, origin: Block<i64, 3>, precision: Precision) -> Result<Self, String> {
+        Ok(match precision {
+            Precision::TwoSteps => AllLights::TwoSteps(lights(scene, origin)?),
+            Precision::OneStep => AllLights::OneStep(lights(scene, origin)?),
+            Precision::Table => AllLights::Table(lights(scene, origin)?),
+        })
+    }
+
+    /// See [`PointLights::shade`].
+    pub fn shade<S: Specular>(&self, normal: [i32; 3], position: Block<i64, 3>, material: &Material<S>) -> [i32; 3] {
+        match self {
+            AllLights::TwoSteps(lights) => lights.shade(normal, position, material),
+            AllLights::OneStep(lights) => lights.shade(normal, position, material),
+            AllLights::Table(lights) => lights.shade(normal, position, material),
+        }
+    }
+
+    /// See [`PointLights::at_scale`].
+    pub fn at_scale(&self, exponent: i32) -> Lit {
+        match self {
+            AllLights::TwoSteps(lights) => Lit::TwoSteps(lights.at_scale(exponent)),
+            AllLights::OneStep(lights) => Lit::OneStep(lights.at_scale(exponent)),
+            AllLights::Table(lights) => Lit::Table(lights.at_scale(exponent)),
+        }
+    }
+}
+
+/// The lights for places at one scale. Which precision is told when a pixel is lit, as for HW2.
+pub enum Lit {
+    /// That of exact.
+    TwoSteps(PointLit<LIGHTS, TwoSteps>),
+    /// That of balanced.
+    OneStep(PointLit<LIGHTS, OneStep>),
+    /// That of fast.
+    Table(PointLit<LIGHTS, Table>),
+}
+
+impl Lit {
+    /// See [`PointLit::shade`].
+    pub fn shade<S: Specular>(&self, normal: [i32; 3], position: [i32; 3], material: &Material<S>) -> [i32; 3] {
+        match self {
+            Lit::TwoSteps(lit) => lit.shade(normal, position, material),
+            Lit::OneStep(lit) => lit.shade(normal, position, material),
+            Lit::Table(lit) => lit.shade(normal, position, material),
+        }
+    }
+}
+
+fn lights<P: num::Precision>(scene: &Scene, origin: Block<i64, 3>) -> Result<PointLights<i64, LIGHTS, P>, String> {
     let (eye, all) = seen_from(scene, origin);
     let mut lights = PointLights::new(eye);
     for light in all {

@@ -5,11 +5,11 @@
 //! ```
 
 use fixel::clip::{Behind, DepthRange, Planes};
-use fixel::depth::{DepthBuffer, FAR, LessOrFar};
+use fixel::depth::{DepthBuffer, FAR, LessOrFar, NoDepth};
 use fixel::draw;
 use fixel::fragment::Fragment;
 use fixel::matrix::Matrix;
-use fixel::num::{Block, SineTable, Word};
+use fixel::num::{Block, Word};
 use fixel::target::Buffer;
 use fixel::view::{Carried, Cull, Vertex, View};
 use fixel::viewport::Viewport;
@@ -17,7 +17,7 @@ use fixel::window::Window;
 
 use crate::emit::drawing::{Drawing, Nearer, Pixels, Program};
 use crate::emit::log::{Log, Read};
-use crate::fixed::dials::Dials;
+use crate::fixed::dials::{Dials, Trigonometry};
 use crate::fixed::{FixedPicture, Pixel, shader};
 use crate::lower;
 use crate::scene::Fault;
@@ -106,7 +106,7 @@ fn logged<W: Word>(
 ) -> Result<(FixedPicture, Option<Log>), Fault> {
     let size = window.width() * window.height();
     let mut canvas = Canvas {
-        view: view::<W>(scene).map_err(Fault::of_whole)?,
+        view: view::<W>(scene, dials.trigonometry).map_err(Fault::of_whole)?,
         window,
         pixels: vec![Pixel::default(); size],
         depths: vec![FAR; size],
@@ -126,11 +126,11 @@ fn logged<W: Word>(
     Ok((picture, canvas.log))
 }
 
-fn view<W: Word>(scene: &Scene) -> Result<View<i64, W, 0>, String> {
+fn view<W: Word>(scene: &Scene, trigonometry: Trigonometry) -> Result<View<i64, W, 0>, String> {
     let side = |pixels: u32| u16::try_from(pixels).map_err(|e| e.to_string());
     let viewport = Viewport::<W>::new(0, 0, side(scene.width)?, side(scene.height)?).map_err(|e| e.to_string())?;
     Ok(View {
-        projection: to_clip(&scene.model.camera)?,
+        projection: to_clip(&scene.model.camera, trigonometry)?,
         planes: Planes::default(),
         viewport: viewport.y_up().samples_at_centers(),
         depth_range: DepthRange::MinusOneToOne,
@@ -140,7 +140,7 @@ fn view<W: Word>(scene: &Scene) -> Result<View<i64, W, 0>, String> {
 }
 
 /// World space to clip space.
-fn to_clip(camera: &Camera) -> Result<Matrix<i64>, String> {
+fn to_clip(camera: &Camera, trigonometry: Trigonometry) -> Result<Matrix<i64>, String> {
     let window = [
         camera.left,
         camera.right,
@@ -152,7 +152,7 @@ fn to_clip(camera: &Camera) -> Result<Matrix<i64>, String> {
     let projection = Matrix::frustum(window.map(|v| lower::block([v]))).map_err(|e| e.to_string())?;
     let turn = &camera.orientation;
     let position = lower::block(camera.position);
-    let to_eye = Matrix::camera::<SineTable>(position, lower::block(turn.axis), lower::radians(turn.angle)?);
+    let to_eye = trigonometry.camera(position, lower::block(turn.axis), lower::radians(turn.angle)?);
     Ok(projection.product(&to_eye.map_err(|e| e.to_string())?))
 }
 
@@ -187,15 +187,24 @@ impl<W: Word> shader::Canvas for Canvas<W> {
         self.dials
     }
 
-    fn paint<F>(&mut self, world: [Block<i64, 4>; 3], carried: [<F::Varying as Carried>::Vertex; 3], fragment: &F)
-    where
+    fn paint<F, const DEPTH: bool>(
+        &mut self,
+        world: [Block<i64, 4>; 3],
+        carried: [<F::Varying as Carried>::Vertex; 3],
+        fragment: &F,
+    ) where
         F: Fragment<Pixel = Pixel, Varying: Carried>,
     {
         let color = Buffer::strip(&mut self.pixels, self.window);
         let depth = Buffer::strip(&mut self.depths, self.window);
         if let (Ok(mut color), Ok(depth)) = (color, depth) {
             let mut depth = DepthBuffer::<_, LessOrFar>::new(depth);
-            draw::primitive(&self.view, &mut color, &mut depth, &corners(world, carried), fragment);
+            let corners = corners(world, carried);
+            if DEPTH {
+                draw::primitive(&self.view, &mut color, &mut depth, &corners, fragment);
+            } else {
+                draw::primitive(&self.view, &mut color, &mut NoDepth, &corners, fragment);
+            }
         }
     }
 

@@ -1,15 +1,18 @@
 //! One Separator: its mesh, brought into the world and shaded.
 
-use fixel::light::world::{Material, PointLights, Specular};
+use std::marker::PhantomData;
+
+use fixel::light::world::{Material, Specular};
 use fixel::matrix::{Directions, Matrix};
 use fixel::mesh::{Cache, Face, Index, Mesh};
-use fixel::num::{Block, Scaled, SineTable, Word};
+use fixel::num::{Block, Scaled, Word};
+use fixel::varying::{Linear, Linear32};
 
 use super::Canvas;
-use super::lamps::{self, LIGHTS, Surface};
-use super::shade::{self, Flat, Gouraud, Phong};
+use super::lamps::{self, AllLights, Surface};
+use super::shade::{self, Flat, Gouraud, Gouraud565, Phong};
 use crate::emit::drawing::{Lights, Program};
-use crate::fixed::dials::Lighting;
+use crate::fixed::dials::{Colors, Lighting, Trigonometry};
 use crate::fixed::shader::Canvas as _;
 use crate::lower;
 use crate::scene::iv::{Object, Scene, Shading, Transform};
@@ -54,9 +57,9 @@ fn shaded<W: Word, S: Specular>(
     let (points, normals) = indices(object)?;
     let counts = [object.points.len(), object.normals.len()];
     let mesh = Mesh::<u32, 2>::new([&points, &normals], counts).map_err(|e| e.to_string())?;
-    let to_world = ToWorld::new(&object.transforms)?;
+    let to_world = ToWorld::new(&object.transforms, canvas.dials.trigonometry)?;
     let origin = to_world.place(middle(object));
-    let lights = lamps::lights(scene, origin)?;
+    let lights = AllLights::new(scene, origin, canvas.dials.precision)?;
     let lit = |place, normal| lights.shade(normal, place, material);
     let corner = |[point, normal]: [usize; 2]| {
         let world = to_world.points.transform(homogeneous(object.points[point]));
@@ -67,7 +70,7 @@ fn shaded<W: Word, S: Specular>(
             color: [0; 3],
         };
         let color = if shading == Shading::Gouraud {
-            Gouraud::carried(lit(corner.place, corner.normal))
+            shade::carried(lit(corner.place, corner.normal))
         } else {
             corner.color
         };
@@ -86,8 +89,7 @@ fn shaded<W: Word, S: Specular>(
             canvas.describe(|_| Program::Corners);
             mesh.faces().for_each(|face| {
                 each(canvas, &face, &mut cache, corner, |canvas, corners, primitive| {
-                    let colors = corners.map(|c| c.color);
-                    canvas.draw(corners.map(|c| c.world), colors, &Gouraud { primitive });
+                    gouraud(canvas, corners, primitive);
                 });
             });
         }
@@ -104,7 +106,7 @@ fn shaded<W: Word, S: Specular>(
             });
             mesh.faces().for_each(|face| {
                 each(canvas, &face, &mut cache, corner, |canvas, corners, primitive| {
-                    let carried = corners.map(|c| Phong::<S, LIGHTS>::carried(c.place, exponent, c.normal));
+                    let carried = corners.map(|c| Phong::<S>::carried(c.place, exponent, c.normal));
                     let program = Phong {
                         lit: &lit,
                         material,
@@ -116,6 +118,25 @@ fn shaded<W: Word, S: Specular>(
         }
     }
     Ok(())
+}
+
+/// Draws a triangle in its corners' colours, interpolated as the dial says.
+fn gouraud<W: Word>(canvas: &mut Canvas<W>, corners: [Corner; 3], primitive: u32) {
+    let (world, colors) = (corners.map(|c| c.world), corners.map(|c| c.color));
+    match (canvas.dials.colors, canvas.narrow()) {
+        (Colors::Narrow, Some(canvas)) => {
+            let varying = PhantomData::<Linear32<3>>;
+            canvas.paint::<_, true>(world, colors, &Gouraud { primitive, varying });
+        }
+        (Colors::Packed, Some(canvas)) => {
+            let colors = colors.map(Gouraud565::carried);
+            canvas.paint::<_, true>(world, colors, &Gouraud565 { primitive });
+        }
+        _ => {
+            let varying = PhantomData::<Linear<3>>;
+            canvas.draw(world, colors, &Gouraud { primitive, varying });
+        }
+    }
 }
 
 /// Draws the triangles of a face, numbered.
@@ -138,7 +159,7 @@ fn flat<S: Specular>(
     face: &Face<'_, u32, 2>,
     cache: &mut Cache<Corner, 2, CACHE>,
     mut corner: impl FnMut([usize; 2]) -> Corner,
-    lights: &PointLights<i64, LIGHTS>,
+    lights: &AllLights,
     material: &Material<S>,
 ) -> [i32; 3] {
     let mut count = 0;
@@ -180,7 +201,7 @@ pub(super) struct ToWorld {
 }
 
 impl ToWorld {
-    pub(super) fn new(transforms: &[Transform]) -> Result<Self, String> {
+    pub(super) fn new(transforms: &[Transform], trigonometry: Trigonometry) -> Result<Self, String> {
         let mut all = Self {
             points: Matrix::identity(),
             normals: Directions::identity(),
@@ -197,10 +218,10 @@ impl ToWorld {
                     lower::radians(transform.rotation.angle)?,
                     lower::block(transform.rotation.axis),
                 );
-                let turn = Matrix::rotation::<SineTable>(angle, axis).map_err(|e| e.to_string())?;
+                let turn = trigonometry.rotation(angle, axis).map_err(|e| e.to_string())?;
                 all.points = all.points.product(&turn);
-                all.normals
-                    .rotate::<SineTable>(angle, axis)
+                trigonometry
+                    .rotate(&mut all.normals, angle, axis)
                     .map_err(|e| e.to_string())?;
             }
             all.points = all.points.product(&Matrix::scaling(scale));

@@ -1,10 +1,13 @@
 //! Fragment programs: flat, Gouraud, Phong.
 
-use fixel::fragment::Fragment;
-use fixel::light::world::{FULL, Material, PointLit, Specular};
-use fixel::num::Block;
-use fixel::varying::Linear;
+use std::marker::PhantomData;
 
+use fixel::fragment::Fragment;
+use fixel::light::world::{FULL, Material, Specular};
+use fixel::num::Block;
+use fixel::varying::{Color565, Packed565, Varying};
+
+use super::lamps::Lit;
 use crate::fixed::Pixel;
 use crate::fixed::shader::Shader;
 
@@ -30,21 +33,22 @@ impl Fragment for Flat {
     }
 }
 
-/// The corners' colours, linear over the screen.
-pub struct Gouraud {
+/// The corners' colours, linear over the screen: [`Linear`](fixel::varying::Linear), or
+/// [`Linear32`](fixel::varying::Linear32).
+pub struct Gouraud<V> {
     /// Stored with every pixel.
     pub primitive: u32,
+    /// How colours are interpolated.
+    pub varying: PhantomData<V>,
 }
 
-impl Gouraud {
-    /// What a corner carries of its colour.
-    pub fn carried(color: [i32; 3]) -> [i32; 3] {
-        color.map(|c| c.clamp(0, FULL) << FINER)
-    }
+/// What a corner carries of its colour.
+pub fn carried(color: [i32; 3]) -> [i32; 3] {
+    color.map(|c| c.clamp(0, FULL) << FINER)
 }
 
-impl Fragment for Gouraud {
-    type Varying = Linear<3>;
+impl<V: Varying<Values = [i32; 3]>> Fragment for Gouraud<V> {
+    type Varying = V;
     type Pixel = Pixel;
 
     #[inline]
@@ -53,17 +57,42 @@ impl Fragment for Gouraud {
     }
 }
 
+/// The corners' colours, linear over the screen, two channels a word: pixels are RGB565.
+pub struct Gouraud565 {
+    /// Stored with every pixel.
+    pub primitive: u32,
+}
+
+impl Gouraud565 {
+    /// What a corner carries, of what it would carry else.
+    pub fn carried(color: [i32; 3]) -> [i32; 3] {
+        let levels = |c: i32, most: i64| ((i64::from(c) * most) >> (28 + FINER - 16)) as i32 + (1 << 15);
+        let [red, green, blue] = color;
+        [levels(red, 31), levels(green, 63), levels(blue, 31)]
+    }
+}
+
+impl Fragment for Gouraud565 {
+    type Varying = Color565;
+    type Pixel = Pixel;
+
+    #[inline]
+    fn shade(&self, color: Packed565, _below: Pixel) -> Option<Pixel> {
+        Some(Pixel::packed(color.pixel(), self.primitive))
+    }
+}
+
 /// The lighting function at every pixel.
-pub struct Phong<'a, S, const N: usize> {
+pub struct Phong<'a, S> {
     /// The lights at the places' scale.
-    pub lit: &'a PointLit<N>,
+    pub lit: &'a Lit,
     /// The object's.
     pub material: &'a Material<S>,
     /// Stored with every pixel.
     pub primitive: u32,
 }
 
-impl<S, const N: usize> Phong<'_, S, N> {
+impl<S> Phong<'_, S> {
     /// What a corner carries: its place in units of 2^`exponent`, and its normal.
     pub fn carried(place: Block<i64, 3>, exponent: i32, [nx, ny, nz]: [i32; 3]) -> [i32; 6] {
         let fixed = place.scaled(exponent.saturating_neg()).split();
@@ -75,7 +104,7 @@ impl<S, const N: usize> Phong<'_, S, N> {
     }
 }
 
-impl<S: Specular, const N: usize> Shader<6> for Phong<'_, S, N> {
+impl<S: Specular> Shader<6> for Phong<'_, S> {
     #[inline]
     fn shaded(&self, [x, y, z, nx, ny, nz]: [i32; 6]) -> Pixel {
         let color = self.lit.shade([nx, ny, nz], [x, y, z], self.material);

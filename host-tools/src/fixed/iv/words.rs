@@ -14,6 +14,7 @@ use fixel_workloads::model::LIGHTS;
 use super::lamps::{self, Surface};
 use super::object::{ToWorld, middle};
 use super::to_clip;
+use crate::fixed::dials::Trigonometry;
 use crate::lower;
 use crate::scene::iv::{Corner, Object, Scene};
 
@@ -35,7 +36,7 @@ pub fn words(scene: &Scene) -> Result<Vec<u16>, String> {
 fn push_object(words: &mut Vec<u16>, scene: &Scene, object: &Object) -> Result<(), String> {
     let middle = middle(object);
     let size = half_size(object, middle);
-    let to_world = ToWorld::new(&object.transforms)?;
+    let to_world = ToWorld::new(&object.transforms, Trigonometry::default())?;
     let origin = to_world.place(middle);
     let from_origin = Matrix::translation(origin.negated())
         .product(&to_world.points)
@@ -43,7 +44,7 @@ fn push_object(words: &mut Vec<u16>, scene: &Scene, object: &Object) -> Result<(
         .product(&Matrix::scaling(lower::block([lower::whole(size); 3])));
     let unit = largest(&from_origin);
     let scaling = |power: i32| Matrix::scaling(Block::from_integers([1; 3]).scaled(power));
-    let projection = to_clip(&scene.model.camera)?.product(&Matrix::translation(origin));
+    let projection = to_clip(&scene.model.camera, Trigonometry::default())?.product(&Matrix::translation(origin));
     push_block(words, projection.product(&scaling(unit)).entries());
     push_block(words, scaling(-unit).product(&from_origin).entries());
     push_material(words, &Surface::of(&object.material)?);

@@ -130,7 +130,7 @@ fn logged<W: Word>(
     };
     let n = fsaa as i32;
     let samples = Window::new(window.left * n, window.top * n, window.right * n, window.bottom * n);
-    let mut canvas = Canvas::new(samples, scene.switches.depth);
+    let mut canvas = Canvas::new(samples, scene.switches.depth && !dials.no_depth);
     canvas.log = log;
     for (number, primitive) in (1..).zip(&scene.primitives) {
         let drawn = brush.draw(&mut canvas, number, &primitive.shape);

@@ -91,7 +91,7 @@ impl<W: Word> Brush<'_, W> {
         fraction_bits: u32,
     ) -> Texels<'t> {
         Texels {
-            sampler: Sampler::new(texture, fraction_bits),
+            sampler: Sampler::new(texture, fraction_bits, self.dials.sampling),
             sampled: Sampled {
                 texture: canvas.log.as_mut().map_or(0, |log| log.texture(picture)),
                 fraction_bits,

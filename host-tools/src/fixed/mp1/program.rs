@@ -4,13 +4,14 @@ use std::marker::PhantomData;
 
 use fixel::blend::Rgba;
 use fixel::fragment::{Antialiased, Fragment};
-use fixel::texture::{Nearest, Rgba8888, TowardsZero};
+use fixel::texture::TowardsZero;
 use fixel::varying::Varying;
 
 use crate::emit::drawing::{self, Sampled};
+use crate::fixed::sampling;
 
-/// Nearest texels as MP1 rounds.
-pub type Sampler<'t> = Nearest<'t, Rgba8888, TowardsZero>;
+/// Texels as MP1 rounds.
+pub type Sampler<'t> = sampling::Sampler<'t, TowardsZero>;
 
 /// A sample of the picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
