@@ -14,6 +14,10 @@ const NONE: &str = "pub struct Memory<'a> {
 pub type Strip = fn(&mut Memory<'_>, u16, u16) -> Result<(), fixel::error::Error>;
 
 pub static SCENES: [(&str, u16, u16, u16, Strip); 0] = [];
+
+pub type Shown = fn(&mut [u16], &mut [u16]) -> Result<(), fixel::error::Error>;
+
+pub static MESHES: [(&str, u16, u16, Shown); 0] = [];
 ";
 
 fn main() -> Result<(), Box<dyn Error>> {

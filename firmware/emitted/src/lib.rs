@@ -1,4 +1,4 @@
-//! Emitted scenes, and drawing them in strips: the checksum of a picture's bytes and the instructions that it took.
+//! Emitted scenes, drawn in strips, and emitted meshes, a frame of each: the checksum of a picture's bytes and the instructions that it took.
 
 #![no_std]
 
@@ -7,7 +7,7 @@ use fixel_workloads::machine::{Line, Machine};
 
 pub mod scenes;
 
-use scenes::{Memory, SCENES};
+use scenes::{MESHES, Memory, SCENES};
 
 /// Samples in a strip: 16 rows of up to 4096 samples a pixel row.
 const SAMPLES: usize = 1 << 16;
@@ -17,6 +17,8 @@ pub struct Room {
     samples: [Rgba; SAMPLES],
     bytes: [[u8; 4]; SAMPLES],
     depths: [u16; SAMPLES],
+    /// Of meshes.
+    colors: [u16; SAMPLES],
 }
 
 impl Room {
@@ -29,6 +31,7 @@ impl Room {
             }; SAMPLES],
             bytes: [[0; 4]; SAMPLES],
             depths: [0; SAMPLES],
+            colors: [0; SAMPLES],
         }
     }
 }
@@ -39,8 +42,13 @@ impl Default for Room {
     }
 }
 
-/// Draws all scenes and reports each: instructions, pixels, and the checksum of their bytes. `false` where one does not fit.
+/// Draws everything.
 pub fn draw_all(machine: &mut impl Machine, room: &mut Room) -> bool {
+    draw_scenes(machine, room) && draw_meshes(machine, room)
+}
+
+/// Draws all scenes and reports each: instructions, pixels, and the checksum of their bytes. `false` where one does not fit.
+fn draw_scenes(machine: &mut impl Machine, room: &mut Room) -> bool {
     for (name, width, height, level, strip) in SCENES {
         let (mut top, mut instructions, mut sum) = (0, 0u32, u32::MAX);
         let row = usize::from(width) * usize::from(level) * usize::from(level);
@@ -73,6 +81,30 @@ pub fn draw_all(machine: &mut impl Machine, room: &mut Room) -> bool {
             instructions,
             units: u32::from(width) * u32::from(height),
             color: !sum,
+            depth: 0,
+        });
+    }
+    true
+}
+
+/// Draws a frame of each mesh and reports it in the same way; checksums are those of little-endian pixels.
+fn draw_meshes(machine: &mut impl Machine, room: &mut Room) -> bool {
+    for (name, width, height, shown) in MESHES {
+        let count = usize::from(width) * usize::from(height);
+        let (Some(colors), Some(depths)) = (room.colors.get_mut(..count), room.depths.get_mut(..count)) else {
+            return false;
+        };
+        let mut done = false;
+        let instructions = machine.count(|| done = shown(colors, depths).is_ok());
+        if !done {
+            return false;
+        }
+        let bytes = colors.iter().flat_map(|pixel| pixel.to_le_bytes());
+        machine.report(&Line {
+            name,
+            instructions,
+            units: u32::from(width) * u32::from(height),
+            color: !bytes.fold(u32::MAX, crc),
             depth: 0,
         });
     }

@@ -232,7 +232,7 @@ fn kind(draw: &Draw) -> (u8, usize) {
 }
 
 /// Drops the depth buffer where that changes nothing.
-fn depth(drawing: &mut Drawing, wanted: &[[u8; 4]]) -> Depth {
+pub(super) fn depth(drawing: &mut Drawing, wanted: &[[u8; 4]]) -> Depth {
     let Some(rule) = drawing.depth.take() else {
         return Depth::Unasked;
     };

@@ -111,7 +111,7 @@ impl Command {
                 return Err(Failure::bad(message));
             };
             let mesh = Mesh::new(&scene.model, scene.shading).map_err(failure)?;
-            let EmittedMesh { text, lines } = mesh.emit(&self.origin(), (scene.width, scene.height));
+            let EmittedMesh { text, lines, .. } = mesh.emit(&self.origin(), (scene.width, scene.height));
             return Ok((text, lines));
         }
         let emitted = emit(&loaded.scene, &self.origin()).map_err(failure)?;

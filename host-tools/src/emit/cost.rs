@@ -313,7 +313,7 @@ fn of_shape(sorted: &Sorted<'_>, kind: &Kind, work: &Work, strips: f64) -> f64 {
         Varying::Perspective => (
             800.0 + 600.0 * (values + depth),
             90.0 + 50.0 * values,
-            40.0 + 30.0 * values,
+            120.0 + 40.0 * values,
         ),
     };
     let shines = match &kind.program {

@@ -5,15 +5,17 @@ use std::cell::RefCell;
 use fixel::blend::Rgba;
 use fixel::light::world::{Glossy, Material, PointLights, PointLit};
 use fixel::light::{self, Matte};
-use fixel::texture::{Nearest, Rgba8888, Rounding, Texture};
+use fixel::texture::{Rgba8888, Rounding, Texture};
 
 use super::drawing::{Drawing, Lights, Lit, Paint, Pixels, Program, Sampled, Surface, Units};
 use super::replay::blended;
+use crate::fixed::dials::Sampling;
 use crate::fixed::hw2::lamps::{BULBS, SUNS};
 use crate::fixed::hw2::material::{self, Interpolated, Polished, Same, Surface as _, Vector as _};
 use crate::fixed::iv::lamps::LIGHTS;
 use crate::fixed::iv::shade;
 use crate::fixed::mp1::program::{self, Colors, Paint as _};
+use crate::fixed::sampling::Sampler;
 use crate::picture::Picture;
 
 /// Programs of a drawing.
@@ -179,11 +181,11 @@ impl Ready<'_> {
         })
     }
 
-    fn sampler<R: Rounding>(&self, sampled: Sampled) -> Option<Nearest<'_, Rgba8888, R>> {
+    fn sampler<R: Rounding>(&self, sampled: Sampled) -> Option<Sampler<'_, R>> {
         let picture = self.texture?;
         let [width, height] = [picture.width, picture.height].map(|side| u16::try_from(side).unwrap_or(0));
         let texture = Texture::new(Rgba8888, &picture.pixels, width, height).ok()?;
-        Some(Nearest::new(texture, sampled.fraction_bits))
+        Some(Sampler::new(texture, sampled.fraction_bits, Sampling::Nearest))
     }
 
     /// What a program that writes bytes writes.

@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 
+use super::mesh::EmittedMesh;
 use super::{Emitted, Requirements};
 
 /// Modules of their own for all scenes, and the table `SCENES` of their names, sizes, levels and functions that draw a strip.
@@ -76,6 +77,56 @@ fn strip(number: usize, requirements: &Requirements) -> String {
         "fn strip_{number}(memory: &mut Memory<'_>, top: u16, bottom: u16) -> Result<(), fixel::error::Error> {{
     use scene_{number} as scene;
 {body}    Ok(())
+}}
+
+"
+    )
+}
+
+/// Name, size of the picture, and the mesh.
+pub type ShownMesh = (String, (u16, u16), EmittedMesh);
+
+/// Modules of their own for all meshes, and the table `MESHES` of their names, sizes and functions that draw a frame, with what
+/// [`shown`](fixel_workloads::shown) says of view and light.
+pub fn meshes(meshes: &[ShownMesh]) -> String {
+    let (mut text, mut table) = (String::new(), String::new());
+    for (number, (name, (width, height), mesh)) in meshes.iter().enumerate() {
+        let _ = write!(text, "pub mod mesh_{number} {{\n{}}}\n\n", mesh.text);
+        text += &shown(number, (*width, *height), mesh.depth);
+        let _ = writeln!(table, "    ({name:?}, {width}, {height}, shown_{number}),");
+    }
+    let count = meshes.len();
+    let _ = write!(
+        text,
+        "pub type Shown = fn(&mut [u16], &mut [u16]) -> Result<(), fixel::error::Error>;
+
+/// Names, sizes, and what draws a frame with these depths.
+pub static MESHES: [(&str, u16, u16, Shown); {count}] = [\n{table}];\n"
+    );
+    text
+}
+
+/// The function that draws a frame of a mesh.
+fn shown(number: usize, (width, height): (u16, u16), depth: bool) -> String {
+    let (parameter, made, passed) = if depth {
+        let made = "    depths.fill(fixel::depth::FAR);
+    let mut depth = fixel::depth::DepthBuffer::<_, fixel::depth::LessOrEqual>::new(
+        fixel::target::Buffer::new(depths, WIDTH, HEIGHT)?,
+    );
+";
+        ("depths", made, ", &mut depth")
+    } else {
+        ("_", "", "")
+    };
+    format!(
+        "fn shown_{number}(colors: &mut [u16], {parameter}: &mut [u16]) -> Result<(), fixel::error::Error> {{
+    const WIDTH: u16 = {width};
+    const HEIGHT: u16 = {height};
+    let (view, sun) = (fixel_workloads::shown::view(WIDTH, HEIGHT)?, fixel_workloads::shown::sun()?);
+    colors.fill(0);
+{made}    let mut color = fixel::target::Buffer::new(colors, WIDTH, HEIGHT)?;
+    mesh_{number}::draw(&view, &sun, &mut mesh_{number}::EMPTY.clone(), &mut color{passed});
+    Ok(())
 }}
 
 "

@@ -4,11 +4,15 @@
 //! model -> corners welded, numbers of 16 bits -> convex? -> Rust
 //! ```
 
+mod frame;
+
 use std::collections::HashMap;
 use std::fmt::{Debug, Write};
 use std::mem::size_of;
 
 use fixel::view::ScreenVertex;
+
+pub use frame::Frame;
 
 use super::write::tables::push_table;
 use crate::scene::Fault;
@@ -40,6 +44,13 @@ pub struct EmittedMesh {
     pub text: String,
     /// What it takes, for people.
     pub lines: Vec<String>,
+    /// Bytes of its tables.
+    pub data: usize,
+    /// Whether it is drawn with a depth buffer.
+    pub depth: bool,
+    /// A frame of it, and the instructions of a Cortex-M4 that this is estimated to take. `None` where the picture is too
+    /// large for the core, beyond 4096 pixels a side.
+    pub frame: Option<(Frame, u64)>,
 }
 
 impl Mesh {
@@ -101,7 +112,19 @@ impl Mesh {
 
     /// As Rust, for a picture of this size. `origin` says in the file's first lines where it came from.
     pub fn emit(&self, origin: &str, (width, height): (u32, u32)) -> EmittedMesh {
-        let lines = self.lines(width as usize, height as usize);
+        let side = |side: u32| u16::try_from(side).ok();
+        let frame = side(width).zip(side(height));
+        let frame = frame.and_then(|(width, height)| Frame::of(self, width, height).ok());
+        let frame = frame.map(|frame| {
+            let instructions = frame.instructions(self);
+            (frame, instructions)
+        });
+        let mut lines = self.lines(width as usize, height as usize);
+        if let Some((_, instructions)) = &frame {
+            lines.push(format!(
+                "instructions: about {instructions} for a frame with all of it seen, as large as fits (estimated, Cortex-M4)"
+            ));
+        }
         let mut text = format!("// Made by: {origin}\n//\n");
         for line in &lines {
             let _ = writeln!(text, "// {line}");
@@ -124,7 +147,19 @@ impl Mesh {
         text += "/// Counter-clockwise as seen from outside.\n";
         push_static("TRIANGLES", "[u16; 3]", self.triangles.iter(), &mut text);
         let text = text.trim_end().to_owned() + "\n";
-        EmittedMesh { text, lines }
+        EmittedMesh {
+            text,
+            lines,
+            data: self.data(),
+            depth: !self.convex,
+            frame,
+        }
+    }
+
+    /// Bytes of all tables.
+    fn data(&self) -> usize {
+        let corners = self.corners.len();
+        6 * (corners + self.normals.as_ref().map_or(corners, Vec::len) + self.triangles.len())
     }
 
     fn lines(&self, width: usize, height: usize) -> Vec<String> {
@@ -149,8 +184,7 @@ impl Mesh {
         if self.unseen > 0 {
             lines.push(format!("left out: {} triangles without area", self.unseen));
         }
-        let data = 6 * (vertices + self.normals.as_ref().map_or(vertices, Vec::len) + triangles);
-        lines.push(format!("flash: {data} bytes of data, and the core's code"));
+        lines.push(format!("flash: {} bytes of data, and the core's code", self.data()));
         let vertex = if flat {
             size_of::<ScreenVertex<i32, ()>>()
         } else {

@@ -27,6 +27,7 @@ use crate::scene::{Fault, Scene};
 
 pub use analyse::Depth;
 pub use cost::Requirements;
+use drawing::Drawing;
 
 /// A scene as Rust.
 #[derive(Debug, Clone)]
@@ -47,6 +48,29 @@ pub struct Emitted {
 /// # Panics
 /// Where what is to be emitted does not give the scene's picture, which is checked here: a bug of ours.
 pub fn emit(scene: &Scene, origin: &str) -> Result<Emitted, Fault> {
+    let (bytes, drawing) = recorded(scene)?;
+    let analysed = analyse::analyse(drawing, &bytes);
+    let sorted = write::Sorted::new(&analysed.drawing);
+    let requirements = Requirements::new(&analysed, &sorted);
+    let text = sorted.text(&requirements.comment(origin));
+    Ok(Emitted {
+        text,
+        requirements,
+        bytes,
+    })
+}
+
+/// Whether the scene needs a depth buffer, and why.
+///
+/// # Errors
+/// As [`emit`].
+pub fn depth(scene: &Scene) -> Result<Depth, Fault> {
+    let (bytes, mut drawing) = recorded(scene)?;
+    Ok(analyse::depth(&mut drawing, &bytes))
+}
+
+/// What the core draws, and what it draws it from.
+fn recorded(scene: &Scene) -> Result<(Vec<[u8; 4]>, Drawing), Fault> {
     let (picture, drawing) = match scene {
         Scene::Hw2(scene) => {
             let mut back_end = fixed::hw2::Fixed::recorded(scene.width, scene.height);
@@ -57,15 +81,7 @@ pub fn emit(scene: &Scene, origin: &str) -> Result<Emitted, Fault> {
         Scene::Iv(scene) => fixed::iv::recorded(scene)?,
     };
     let FixedPicture { pixels, .. } = picture;
-    let bytes: Vec<_> = pixels.iter().map(|pixel| pixel.rgba).collect();
+    let bytes = pixels.iter().map(|pixel| pixel.rgba).collect();
     let drawing = drawing.ok_or_else(|| Fault::of_whole("nothing was written down"))?;
-    let analysed = analyse::analyse(drawing, &bytes);
-    let sorted = write::Sorted::new(&analysed.drawing);
-    let requirements = Requirements::new(&analysed, &sorted);
-    let text = sorted.text(&requirements.comment(origin));
-    Ok(Emitted {
-        text,
-        requirements,
-        bytes,
-    })
+    Ok((bytes, drawing))
 }
