@@ -126,6 +126,11 @@ fn the_tiers_are_the_stored_ones() {
     let stored: serde_json::Value = serde_json::from_str(&stored).unwrap();
     let mut rows = 0;
     for sweep in stored["sweeps"].as_array().unwrap() {
+        let points = sweep["points"].as_array().unwrap();
+        if points.iter().all(|point| point["dial"] != "fast") {
+            // Of single dials that no tier sets: `docs/trade.md` has them.
+            continue;
+        }
         let title = match sweep["scene"].as_str().unwrap() {
             "flat" => "flat mesh",
             "gouraud" => "Gouraud mesh",
@@ -134,7 +139,6 @@ fn the_tiers_are_the_stored_ones() {
             other => panic!("{other}: not in the README"),
         };
         for tier in ["fast", "balanced", "exact"] {
-            let points = sweep["points"].as_array().unwrap();
             let point = points.iter().find(|point| point["dial"] == tier).unwrap();
             let number = |key: &str| point[key].as_f64().unwrap();
             let costs = ["m4", "m0", "riscv"].map(|machine| number(machine) / sweep["pixels"].as_f64().unwrap());

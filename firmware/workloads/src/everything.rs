@@ -13,10 +13,10 @@ use fixel::dither;
 use fixel::draw;
 use fixel::edge::{Edge, first_row};
 use fixel::error::Error;
-use fixel::fragment::{Antialiased, Flat, Fragment};
+use fixel::fragment::{Antialiased, Flat, Flat565, Fragment, Gouraud565};
 use fixel::gradient::Basis;
 use fixel::light::world::{FULL, Glossy, Material, PointLights};
-use fixel::light::{Lights, Matte, Shiny};
+use fixel::light::{Lights, Matte, Shiny, Sunlight};
 use fixel::line::Line;
 use fixel::matrix::{Directions, Matrix};
 use fixel::mesh::{Cache, Mesh, Normalized};
@@ -27,17 +27,20 @@ use fixel::num::{
 use fixel::patch::{ControlPoint, Level, RectangularPatch, TriangularPatch};
 use fixel::pipeline::shapes::{BOX, Corner as ShapeCorner};
 use fixel::pipeline::{
-    self, Filtering, OneBit, Pixel, PixelFormat, Program, Region, Sampler, Shaded, State, Wrapping, clip_line,
+    self, Filtering, OneBit, Picture, Pixel, PixelFormat, Program, Region, Sampler, Shaded, State, Wrapping, clip_line,
     clip_polygon, clip_to_region, from_the_top, get, plane_distance, set,
 };
-use fixel::screen::{Position, SubPx};
+use fixel::screen::{Corner, FineDepth, Position, SubPx};
+use fixel::segment::{Nearest, Pairs};
 use fixel::slope::Weights;
 use fixel::span::{doubled_area, scan};
 use fixel::srgb::decode_wide;
 use fixel::supersample;
 use fixel::target::Buffer;
-use fixel::texture::{Nearest, Palette, Rgb565, Rgba8888, Texel, Texture, TowardsZero};
-use fixel::varying::Linear;
+use fixel::texture::{
+    self, Bilinear565, Palette, Rgb565, Rgba8888, Texel, Texture, Tiled565, TiledBilinear565, TowardsZero,
+};
+use fixel::varying::{Color565, Linear, Packed565, Perspective};
 use fixel::view::{Assembled, ScreenVertex, Vertex, View, Wants};
 use fixel::viewport::Viewport;
 use fixel::window::Window;
@@ -49,7 +52,7 @@ use crate::scenes::part::{HEIGHT, Memory, Part};
 /// Calls everything.
 pub fn run(memory: &mut Memory) {
     let mut part = memory.cleared(0, HEIGHT);
-    for &(_, draw) in TIERS.iter().flat_map(|tier| tier.scenes) {
+    for &(_, draw) in TIERS.iter().flat_map(|tier| &tier.scenes) {
         let _ = black_box(black_box(draw)(&mut part));
     }
     let _ = black_box(small(&mut part));
@@ -90,11 +93,33 @@ impl Fragment for Pair {
     }
 }
 
+/// Both of what a pixel gets of a colour.
+struct Packed;
+
+impl Fragment for Packed {
+    type Varying = Color565;
+    type Pixel = u16;
+    fn shade(&self, values: Packed565, below: u16) -> Option<u16> {
+        let [red, green, blue] = values.levels();
+        Some(values.pixel() ^ below ^ (red ^ green ^ blue) as u16)
+    }
+}
+
+/// Somewhere.
+fn corner<V>(i: u8, varying: V) -> Corner<V> {
+    let x = i16::from(black_box(i));
+    Corner {
+        position: Position::from_pixels(x * 5, x * x),
+        depth: FineDepth::from_num(x),
+        varying,
+    }
+}
+
 /// Rooms below the draw, targets and windows.
 fn small(part: &mut Part<'_>) -> Result<(), Error> {
     let corners = black_box([(1, 2), (30, 40), (50, 6)]).map(|(x, y)| Position::from_pixels(x, y).flat());
     let window = black_box(part.window()).intersect(black_box(Window::new(3, 4, 50, 60)));
-    black_box(window.is_empty());
+    black_box((window.is_empty(), window.contains(black_box((7, 8)))));
     let position = Position::new(black_box(SubPx::ONE), black_box(SubPx::ONE))?;
     black_box((position.x(), position.y()));
     if let Some(basis) = Basis::new(&corners) {
@@ -112,6 +137,9 @@ fn small(part: &mut Part<'_>) -> Result<(), Error> {
         let slope = weights.slope(black_box([1, 200, 3000]));
         black_box(slope.ramp(weights.place(black_box(7), black_box(8))));
     }
+    Line::new(black_box((9, 2)), black_box((7, 50)), window).for_each(|at| {
+        black_box(at);
+    });
     Line::closed(black_box((1, 2)), black_box((70, 50)), window).for_each(|at| {
         black_box(at);
     });
@@ -121,6 +149,13 @@ fn small(part: &mut Part<'_>) -> Result<(), Error> {
     let mut depth = Switched::new(Buffer::new(&mut memory, black_box(8), black_box(8))?);
     depth.options = black_box(Options::default());
     draw::triangle(&mut target, &mut depth, corners, &Flat(black_box(7)));
+    draw::triangle(&mut target, &mut depth, corners, &Flat565::new(black_box(7)));
+    let colors = |i: u8| Gouraud565::corner(black_box(i), 2, 3);
+    let colored = [1, 2, 3].map(|i| corner(i, colors(i)));
+    draw::triangle(&mut target, &mut depth, colored, &Packed);
+    let texels = black_box([[1u16, 2], [3, 4]]);
+    let textured = [4, 9, 20].map(|i| corner(i, Perspective::new(black_box([7, 8]), black_box(1 << 30))));
+    draw::triangle(&mut target, &mut depth, textured, &Tiled565::new(&texels));
     black_box(depth.limit(window));
     black_box(Relation::passes(black_box(Relation::Less), black_box(3), black_box(4)));
     black_box(set(&mut target, black_box((SubPx::ONE, SubPx::ONE)), 5));
@@ -212,6 +247,13 @@ fn words<T: Word>(part: &mut Part<'_>) -> Result<(), Error> {
     ready(part, projection, corners)?;
     patches::<T>();
     lights::<T>()?;
+    let ends = black_box([(1, 2), (30, 40)]).map(|(x, y)| Position::from_pixels(x, y).flat());
+    Nearest::<T>::new(&ends, part.window()).for_each(|at| {
+        black_box(at);
+    });
+    Pairs::<T>::new(&ends, part.window()).for_each(|pair| {
+        black_box(pair);
+    });
     let mut edge = Edge::<T>::new(black_box((3, 4)), black_box((500, 600)), first_row(black_box(77)));
     edge.descend();
     black_box(edge.column());
@@ -226,6 +268,7 @@ fn in_view<T: Word>(
 ) -> Result<(), Error> {
     let viewport = Viewport::<T>::new(black_box(0), 0, 90, 60)?.y_up().samples_at_centers();
     black_box(viewport.place(corners[0], black_box(DepthRange::ZeroToOne)));
+    black_box(viewport.window());
     let view = View {
         projection,
         planes,
@@ -352,6 +395,9 @@ fn patches<T: Word>() {
 }
 
 fn lights<T: Word>() -> Result<(), Error> {
+    let directions = Directions::<T>::identity();
+    let sun = Sunlight::new(black_box([1, 2, 3]), &directions, black_box([9; 3]), black_box([5; 3]))?;
+    black_box(sun.shade(black_box([0, 0, i16::MAX])));
     lights_at::<T, TwoSteps>();
     lights_at::<T, OneStep>();
     lights_at::<T, Table>();
@@ -455,11 +501,21 @@ fn textures() -> Result<(), Error> {
         texture.height(),
         texture.texel(black_box(1), black_box(1)),
     ));
-    let nearest = Nearest::<_, TowardsZero>::new(texture, black_box(16));
+    let nearest = texture::Nearest::<_, TowardsZero>::new(texture, black_box(16));
     black_box((nearest.texel(black_box([5, 6])), nearest.stored(black_box([5, 6]))));
+    let pixels = black_box([9u16; 4]);
+    black_box(Sampler::new(Picture::new(Rgb565, &pixels, black_box(2), 2)?, 16).sample(black_box([1, 2])));
     let indices = black_box([0, 1, 2, 3]);
     let palette = Texture::new(Palette(&bytes), &indices, 2, 2)?;
     black_box(palette.texel(black_box(1), black_box(0)));
+    let words = black_box([1, 2, 3, 4]);
+    let smooth = Bilinear565::new(Texture::new(Rgb565, &words, 2, 2)?, black_box(16));
+    let clamped = smooth.wrapped(black_box(Wrapping::ClampToEdge), black_box(Wrapping::Repeat));
+    black_box((smooth.stored(black_box([5, 6])), smooth.levels(black_box([5, 6]))));
+    black_box((clamped.stored(black_box([5, 6])), clamped.levels(black_box([5, 6]))));
+    let rows = black_box([[1, 2], [3, 4]]);
+    let tiled = TiledBilinear565::<Linear<2>, 2, 2>::new(&rows);
+    black_box((tiled.shade(black_box([7, 8]), 0), tiled.levels(black_box([7, 8]))));
     let sampler = Sampler::new(texture, black_box(16));
     let chosen = sampler
         .filtered(black_box(Filtering::Linear))

@@ -17,6 +17,7 @@ pub mod model;
 pub mod program;
 pub mod scenes;
 pub mod shapes;
+pub mod shown;
 pub mod sizes;
 pub mod stack;
 pub mod tiers;

@@ -2,6 +2,9 @@
 //!
 //! Every image hands its function what the others have too: memory, a matrix, vertices; the empty one does nothing with them.
 
+mod everything;
+
+pub use everything::everything;
 use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::depth::{Less, NoDepth};
 use fixel::draw;
@@ -14,7 +17,6 @@ use fixel::varying::Perspective;
 use fixel::view::{Cull, Vertex, View};
 use fixel::viewport::Viewport;
 
-use crate::scenes::ALL_KINDS;
 use crate::scenes::part::{HEIGHT, Part, WIDTH};
 
 /// A position and a colour, or texture coordinates in texels.
@@ -98,17 +100,6 @@ pub fn textured(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
     for points in input.points.as_chunks::<3>().0 {
         let vertices = points.map(|point| vertex(point, |[s, t, _]| [s, t].map(|v| i32::from(v) << 16)));
         draw::primitive(&view, &mut color, &mut depth, &vertices, &fragment);
-    }
-    Ok(())
-}
-
-/// Once each: the above, user planes, lights per pixel, blending, lines, squares, discs, a mesh, a patch, programs, sRGB.
-pub fn everything(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
-    flat(part, input)?;
-    gouraud(part, input)?;
-    textured(part, input)?;
-    for draw in ALL_KINDS {
-        draw(part)?;
     }
     Ok(())
 }

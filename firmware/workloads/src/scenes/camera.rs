@@ -1,6 +1,7 @@
 //! Through the view door: corners in eye space, clipped and projected.
 
 use core::hint::black_box;
+use core::marker::PhantomData;
 
 use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::depth::{Less, LessOrEqual};
@@ -9,10 +10,11 @@ use fixel::error::Error;
 use fixel::fragment::{Antialiased, Flat, Fragment, Gouraud565};
 use fixel::matrix::Matrix;
 use fixel::mesh::{Cache, Mesh, Normalized};
-use fixel::num::{Angle, Block, Scaled, SineTable, Word};
+use fixel::num::{Angle, Block, Scaled, Word};
 use fixel::patch::{ControlPoint, Level, PatchVertex, RectangularPatch, TriangularPatch};
+use fixel::quality::Quality;
 use fixel::texture::{Floor, Nearest, Rgb565};
-use fixel::varying::{Color565, Perspective};
+use fixel::varying::Color565;
 use fixel::view::{Cull, Vertex, View};
 use fixel::viewport::Viewport;
 
@@ -23,13 +25,13 @@ use super::raster::TEXTURE;
 type Point = ([i32; 4], [i32; 2]);
 
 /// A view of the whole picture along −z, 60° high.
-pub fn view<T: Word, W: Word, const N: usize>(planes: &[[i32; 4]]) -> Result<View<T, W, N>, Error> {
+pub fn view<Q: Quality, T: Word, W: Word, const N: usize>(planes: &[[i32; 4]]) -> Result<View<T, W, N>, Error> {
     let mut own = Planes::default();
     for &plane in planes {
         own.push(Block::from_integers(plane))?;
     }
     Ok(View {
-        projection: projection()?,
+        projection: projection::<Q, T>()?,
         planes: own,
         viewport: Viewport::new(0, 0, WIDTH, HEIGHT)?.y_up(),
         depth_range: DepthRange::MinusOneToOne,
@@ -39,18 +41,19 @@ pub fn view<T: Word, W: Word, const N: usize>(planes: &[[i32; 4]]) -> Result<Vie
 }
 
 /// The matrix of that view.
-pub fn projection<T: Word>() -> Result<Matrix<T>, Error> {
+pub fn projection<Q: Quality, T: Word>() -> Result<Matrix<T>, Error> {
     let aspect = Scaled::from_integer(3)
         .over(Scaled::from_integer(2))
         .ok_or(Error::ZeroVector)?;
     let [near, far] = black_box([1, 40]).map(Scaled::from_integer);
-    Matrix::perspective::<SineTable>(Angle::from_degrees(60), aspect, near, far)
+    Matrix::perspective::<Q::Trigonometry>(Angle::from_degrees(60), aspect, near, far)
 }
 
-struct Textured(Nearest<'static, Rgb565, Floor>);
+/// The nearest texel, by texture coordinates of a tier.
+pub struct Textured<Q>(pub Nearest<'static, Rgb565, Floor>, pub PhantomData<Q>);
 
-impl Fragment for Textured {
-    type Varying = Perspective<2>;
+impl<Q: Quality> Fragment for Textured<Q> {
+    type Varying = Q::Perspective<2>;
     type Pixel = u16;
     fn shade(&self, st: [i32; 2], _below: u16) -> Option<u16> {
         Some(self.0.stored(st))
@@ -81,12 +84,12 @@ const ROOM: [[Point; 3]; 4] = [
     ],
 ];
 
-fn textured<T: Word, W: Word, const N: usize>(
+fn textured<Q: Quality, T: Word, W: Word, const N: usize>(
     part: &mut Part<'_>,
     view: &View<T, W, N>,
     triangles: &[[Point; 3]],
 ) -> Result<(), Error> {
-    let fragment = Textured(Nearest::new(TEXTURE?, 16));
+    let fragment = Textured::<Q>(Nearest::new(TEXTURE?, 16), PhantomData);
     let (mut color, mut depth) = part.compared::<LessOrEqual>()?;
     for corners in black_box(triangles) {
         let corners = corners.map(|(position, st)| Vertex {
@@ -98,12 +101,12 @@ fn textured<T: Word, W: Word, const N: usize>(
     Ok(())
 }
 
-pub fn perspective_nearest(part: &mut Part<'_>) -> Result<(), Error> {
-    textured(part, &view::<i32, i32, 0>(&[])?, &ROOM)
+pub fn perspective_nearest<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
+    textured::<Q, _, _, _>(part, &view::<Q, i32, i32, 0>(&[])?, &ROOM)
 }
 
 /// Corners behind the camera.
-pub fn near_plane(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn near_plane<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     const THROUGH: [[Point; 3]; 3] = [
         [
             ([-3, -1, 2, 1], [0, 0]),
@@ -117,16 +120,16 @@ pub fn near_plane(part: &mut Part<'_>) -> Result<(), Error> {
         ],
         [([0, 0, 1, 1], [0, 0]), ([1, 0, 2, 1], [1, 0]), ([0, 1, 3, 1], [0, 1])],
     ];
-    textured(part, &view::<i32, i32, 0>(&[])?, &THROUGH)
+    textured::<Q, _, _, _>(part, &view::<Q, i32, i32, 0>(&[])?, &THROUGH)
 }
 
 /// Cut by two planes of the user.
-pub fn user_planes(part: &mut Part<'_>) -> Result<(), Error> {
-    textured(part, &view::<i32, i32, 2>(&[[1, 1, 0, 2], [-2, 1, -1, -3]])?, &ROOM)
+pub fn user_planes<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
+    textured::<Q, _, _, _>(part, &view::<Q, i32, i32, 2>(&[[1, 1, 0, 2], [-2, 1, -1, -3]])?, &ROOM)
 }
 
 /// Divided by w whatever its sign.
-pub fn both_signs_of_w(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn both_signs_of_w<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     const MIXED: [[Point; 3]; 3] = [
         [
             ([-3, -1, -4, 1], [0, 0]),
@@ -144,13 +147,13 @@ pub fn both_signs_of_w(part: &mut Part<'_>) -> Result<(), Error> {
             ([-2, 0, 8, 1], [3, 3]),
         ],
     ];
-    let mut view = view::<i32, i32, 0>(&[])?;
+    let mut view = view::<Q, i32, i32, 0>(&[])?;
     view.behind = Behind::Divide;
-    textured(part, &view, &MIXED)
+    textured::<Q, _, _, _>(part, &view, &MIXED)
 }
 
 /// 64-bit positions far from the origin, 64-bit edges.
-pub fn wide_words(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn wide_words<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     const HUGE: i32 = 160_000_000;
     const FAR_OFF: [[Point; 3]; 2] = [
         [
@@ -164,11 +167,11 @@ pub fn wide_words(part: &mut Part<'_>) -> Result<(), Error> {
             ([2, 0, -HUGE, HUGE / 20], [3, 3]),
         ],
     ];
-    textured(part, &view::<i64, i64, 1>(&[[0, 1, 0, 2]])?, &FAR_OFF)
+    textured::<Q, _, _, _>(part, &view::<Q, i64, i64, 1>(&[[0, 1, 0, 2]])?, &FAR_OFF)
 }
 
 /// A cube's faces, counter-clockwise as seen from outside, turned; only those that face the eye.
-pub fn culled_mesh(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn culled_mesh<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     const CORNERS: [[i16; 3]; 8] = {
         const A: i16 = i16::MIN;
         const B: i16 = i16::MAX;
@@ -187,10 +190,10 @@ pub fn culled_mesh(part: &mut Part<'_>) -> Result<(), Error> {
     const FACES: [u16; 30] = [
         0, 3, 2, 1, END, 4, 5, 6, 7, END, 0, 1, 5, 4, END, 2, 3, 7, 6, END, 1, 2, 6, 5, END, 0, 4, 7, 3, END,
     ];
-    let mut view = view::<i32, i32, 0>(&[])?;
+    let mut view = view::<Q, i32, i32, 0>(&[])?;
     view.cull = Cull::Clockwise;
     let axis = Block::from_integers([1, 2, 3]);
-    let turned = Matrix::rotation::<SineTable>(Angle::from_degrees(40), axis)?;
+    let turned = Matrix::rotation::<Q::Trigonometry>(Angle::from_degrees(40), axis)?;
     let position = Block::from_integers([0, 0, -5]);
     let model = Matrix::model(position, &turned, Block::from_integers([2, 1, 2]));
     let (mut color, mut depth) = part.compared::<Less>()?;
@@ -204,13 +207,13 @@ pub fn culled_mesh(part: &mut Part<'_>) -> Result<(), Error> {
         }
     };
     mesh.triangles(&mut Cache::<_, 1, 4>::default(), vertex, |corners| {
-        draw::primitive(&view, &mut color, &mut depth, &corners, &Gouraud565);
+        draw::primitive(&view, &mut color, &mut depth, &corners, &Q::GOURAUD);
     });
     Ok(())
 }
 
 /// Lines, antialiased lines, squares and discs, clipped.
-pub fn lines_in_space(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn lines_in_space<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     /// Adds part of its colour.
     struct Glow;
     impl Fragment for Glow {
@@ -226,7 +229,7 @@ pub fn lines_in_space(part: &mut Part<'_>) -> Result<(), Error> {
         }
     }
 
-    let view = view::<i32, i32, 1>(&[[0, 1, 0, 3]])?;
+    let view = view::<Q, i32, i32, 1>(&[[0, 1, 0, 3]])?;
     let (mut color, mut depth) = part.compared::<LessOrEqual>()?;
     for i in black_box(-6)..=6 {
         let ends = [
@@ -268,27 +271,27 @@ fn carried(vertex: PatchVertex<i32, 3>) -> Vertex<i32, [i32; 3]> {
     }
 }
 
-pub fn rectangular_patch(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn rectangular_patch<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let mut points = [control(0, 0, 0); 16];
     for (i, (point, height)) in (0..).zip(points.iter_mut().zip(black_box(HILLS))) {
         *point = control(i % 4, i / 4, height);
     }
-    let view = view::<i32, i32, 0>(&[])?;
+    let view = view::<Q, i32, i32, 0>(&[])?;
     let (mut color, mut depth) = part.compared::<Less>()?;
-    let mut draw = |corners| draw::primitive(&view, &mut color, &mut depth, &corners, &Gouraud565);
+    let mut draw = |corners| draw::primitive(&view, &mut color, &mut depth, &corners, &Q::GOURAUD);
     RectangularPatch::new(points).for_each_mapped::<true, _>(Level::new(3)?, &mut carried, &mut draw);
     Ok(())
 }
 
-pub fn triangular_patch(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn triangular_patch<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let mut points = [control(0, 0, 0); 10];
     let grid = (0..4).flat_map(|j| (0..4 - j).map(move |i| (i, j)));
     for ((i, j), (point, height)) in grid.zip(points.iter_mut().zip(black_box(HILLS))) {
         *point = control(i, j, height);
     }
-    let view = view::<i32, i32, 0>(&[])?;
+    let view = view::<Q, i32, i32, 0>(&[])?;
     let (mut color, mut depth) = part.compared::<Less>()?;
-    let mut draw = |corners| draw::primitive(&view, &mut color, &mut depth, &corners, &Gouraud565);
+    let mut draw = |corners| draw::primitive(&view, &mut color, &mut depth, &corners, &Q::GOURAUD);
     TriangularPatch::new(points).for_each_mapped::<true, _>(Level::new(3)?, &mut carried, &mut draw);
     Ok(())
 }

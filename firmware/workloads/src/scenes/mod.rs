@@ -1,18 +1,21 @@
 //! Scenes that have the same bits on every machine: small pictures that between them use every way of drawing.
 //!
-//! Each is drawn whole and in strips of several heights, and colour and depth are reported as CRC-32 of all rows.
+//! Each is drawn in every tier of [`fixel::quality`], whole and in strips of several heights, and colour and depth are reported as CRC-32 of all rows.
 
 mod camera;
 mod finish;
+mod grid;
 mod lit;
 pub mod part;
 mod programs;
 mod raster;
+mod ratios;
 
 use core::fmt::{self, Write};
 use core::hint::black_box;
 
 use fixel::error::Error;
+use fixel::quality::{Balanced, Exact, Fast, Quality};
 use heapless::String;
 use part::{HEIGHT, Memory, Part, WIDTH};
 pub use raster::TEXTURE;
@@ -28,68 +31,72 @@ pub struct Tier {
     /// What its scenes' names begin with.
     pub name: &'static str,
     /// Name and drawing of every scene.
-    pub scenes: &'static [(&'static str, Draw)],
+    pub scenes: [(&'static str, Draw); SCENES],
 }
 
-/// All tiers with all scenes.
-pub const TIERS: [Tier; 1] = [Tier {
-    name: "exact",
-    scenes: &[
+/// Scenes in every tier.
+pub const SCENES: usize = 44;
+
+/// Every scene in the tier `Q`. What has neither values between corners, light nor angles is the same in all of them, and is
+/// drawn for each by the same function.
+const fn scenes<Q: Quality>() -> [(&'static str, Draw); SCENES] {
+    [
         ("flat", raster::flat),
         ("flat_depth", raster::flat_depth),
-        ("gouraud", raster::gouraud),
-        ("gouraud_depth", raster::gouraud_depth),
+        ("gouraud", raster::gouraud::<Q>),
+        ("gouraud_depth", raster::gouraud_depth::<Q>),
         ("texture_nearest", raster::texture_nearest),
-        ("guard_band", raster::guard_band),
+        ("guard_band", raster::guard_band::<Q>),
         ("depth_comparisons", raster::depth_comparisons),
         ("over", raster::over),
         ("bresenham_lines", raster::bresenham_lines),
-        ("subpixel_lines", raster::subpixel_lines),
+        ("subpixel_lines", raster::subpixel_lines::<Q>),
         ("wu_lines", raster::wu_lines),
         ("points", raster::points),
-        ("squares", raster::squares),
+        ("squares", raster::squares::<Q>),
         ("discs", raster::discs),
         ("billboards", raster::billboards),
-        ("perspective_nearest", camera::perspective_nearest),
-        ("near_plane", camera::near_plane),
-        ("user_planes", camera::user_planes),
-        ("both_signs_of_w", camera::both_signs_of_w),
-        ("culled_mesh", camera::culled_mesh),
-        ("lines_in_space", camera::lines_in_space),
-        ("wide_words", camera::wide_words),
-        ("rectangular_patch", camera::rectangular_patch),
-        ("triangular_patch", camera::triangular_patch),
-        ("lambert_per_pixel", lit::lambert_per_pixel),
-        ("blinn_phong_per_pixel", lit::blinn_phong_per_pixel),
-        ("phong_in_world", lit::phong_in_world),
-        ("gouraud_in_world", lit::gouraud_in_world),
-        ("pipeline_smooth", programs::smooth),
-        ("pipeline_linear_filter", programs::linear_filter),
-        ("pipeline_blending", programs::blending),
-        ("pipeline_two_targets", programs::two_targets),
-        ("pipeline_discard", programs::discard),
-        ("pipeline_lines", programs::lines),
+        ("perspective_nearest", camera::perspective_nearest::<Q>),
+        ("near_plane", camera::near_plane::<Q>),
+        ("user_planes", camera::user_planes::<Q>),
+        ("both_signs_of_w", camera::both_signs_of_w::<Q>),
+        ("culled_mesh", camera::culled_mesh::<Q>),
+        ("lines_in_space", camera::lines_in_space::<Q>),
+        ("wide_words", camera::wide_words::<Q>),
+        ("rectangular_patch", camera::rectangular_patch::<Q>),
+        ("triangular_patch", camera::triangular_patch::<Q>),
+        ("w_ratio_1", ratios::ratio::<Q, 0>),
+        ("w_ratio_4", ratios::ratio::<Q, 2>),
+        ("w_ratio_64", ratios::ratio::<Q, 6>),
+        ("w_ratio_1024", ratios::ratio::<Q, 10>),
+        ("w_ratio_32768", ratios::ratio::<Q, 15>),
+        ("lit_grid", grid::lit::<Q>),
+        ("textured_grid", grid::textured::<Q>),
+        ("lambert_per_pixel", lit::lambert_per_pixel::<Q>),
+        ("blinn_phong_per_pixel", lit::blinn_phong_per_pixel::<Q>),
+        ("phong_in_world", lit::phong_in_world::<Q>),
+        ("gouraud_in_world", lit::gouraud_in_world::<Q>),
+        ("pipeline_smooth", programs::smooth::<Q>),
+        ("pipeline_linear_filter", programs::linear_filter::<Q>),
+        ("pipeline_blending", programs::blending::<Q>),
+        ("pipeline_two_targets", programs::two_targets::<Q>),
+        ("pipeline_discard", programs::discard::<Q>),
+        ("pipeline_lines", programs::lines::<Q>),
         ("supersampled", finish::supersampled),
         ("srgb", finish::srgb),
         ("one_bit", finish::one_bit),
-    ],
-}];
+    ]
+}
 
-/// A scene of each kind of drawing, for the size of all of them together.
-pub const ALL_KINDS: [Draw; 12] = [
-    raster::over,
-    raster::billboards,
-    camera::user_planes,
-    camera::culled_mesh,
-    camera::lines_in_space,
-    camera::rectangular_patch,
-    lit::blinn_phong_per_pixel,
-    lit::gouraud_in_world,
-    programs::smooth,
-    programs::blending,
-    finish::srgb,
-    finish::one_bit,
-];
+/// All tiers with all scenes.
+pub const TIERS: [Tier; 3] = [tier::<Fast>(), tier::<Balanced>(), tier::<Exact>()];
+
+const fn tier<Q: Quality>() -> Tier {
+    Tier {
+        name: Q::NAME,
+        scenes: scenes::<Q>(),
+    }
+}
 
 /// Heights of the strips that every scene is drawn in again; the last strip may be lower.
 pub const STRIPS: [u16; 3] = [1, 7, 24];
@@ -98,7 +105,7 @@ pub const STRIPS: [u16; 3] = [1, 7, 24];
 /// its units are pixels of the picture that are not black.
 pub fn run(machine: &mut impl Machine, memory: &mut Memory) {
     for tier in &TIERS {
-        for &(name, draw) in tier.scenes {
+        for &(name, draw) in &tier.scenes {
             report(machine, memory, (tier.name, name), black_box(draw), HEIGHT);
             for height in STRIPS {
                 report(machine, memory, (tier.name, name), black_box(draw), height);
@@ -115,9 +122,9 @@ pub type StripMemory = Memory<{ WIDTH as usize * STRIP as usize }>;
 
 /// What a machine with little memory draws: scenes that between them clip, divide, light and walk a mesh.
 const STRIP_DEMO: [(&str, Draw); 3] = [
-    ("user_planes", camera::user_planes),
-    ("culled_mesh", camera::culled_mesh),
-    ("blinn_phong_per_pixel", lit::blinn_phong_per_pixel),
+    ("user_planes", camera::user_planes::<Exact>),
+    ("culled_mesh", camera::culled_mesh::<Exact>),
+    ("blinn_phong_per_pixel", lit::blinn_phong_per_pixel::<Exact>),
 ];
 
 /// Draws some scenes in strips of `height` rows. Lines are called by the scene alone.
@@ -211,21 +218,33 @@ mod tests {
 
     #[test]
     fn every_scene_shows_something_of_its_own() {
-        let mut seen = Vec::new();
         for tier in &TIERS {
-            for &(name, draw) in tier.scenes {
+            let mut seen = Vec::new();
+            for &(name, draw) in &tier.scenes {
                 let (pixels, color, depth) = drawn(draw, HEIGHT);
                 assert!(pixels > 90, "{name}: {pixels} pixels");
                 assert!(!seen.contains(&(color, depth)), "{name}: as another");
                 seen.push((color, depth));
             }
         }
-        assert!(seen.len() >= 24);
+    }
+
+    #[test]
+    fn a_tier_is_more_than_a_name() {
+        let colors = |tier: &Tier| tier.scenes.map(|(_, draw)| drawn(draw, HEIGHT).1);
+        let [fast, balanced, exact] = TIERS.each_ref().map(colors);
+        let different = |a: [u32; SCENES], b: [u32; SCENES]| a.iter().zip(b).filter(|(a, b)| **a != *b).count();
+        let counts = [
+            different(fast, balanced),
+            different(balanced, exact),
+            different(fast, exact),
+        ];
+        assert!(counts.iter().all(|&count| count >= 15), "{counts:?}");
     }
 
     #[test]
     fn strips_equal_the_whole_picture() {
-        for &(name, draw) in TIERS.iter().flat_map(|tier| tier.scenes) {
+        for &(name, draw) in TIERS.iter().flat_map(|tier| &tier.scenes) {
             for height in STRIPS {
                 assert_eq!(drawn(draw, height), drawn(draw, HEIGHT), "{name} in strips of {height}");
             }

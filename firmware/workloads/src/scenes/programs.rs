@@ -6,11 +6,12 @@ use fixel::blend::{Blend, Equation, Factor, ONE, Rgba, Translucent};
 use fixel::depth::{LessOrEqual, NoDepth};
 use fixel::error::Error;
 use fixel::matrix::Matrix;
-use fixel::num::{Angle, Block, SineTable};
+use fixel::num::{Angle, Block};
 use fixel::pipeline::shapes::{BOX, Corner, PLANE_XY};
 use fixel::pipeline::{
     self, Culling, FragCoord, LinearFilter, MirroredRepeat, Pixel, Program, Repeat, Sampler, State, Surface,
 };
+use fixel::quality::Quality;
 use fixel::texture::{Rgb565, Texture};
 use fixel::viewport::Viewport;
 
@@ -23,15 +24,15 @@ fn viewport() -> Result<Viewport<i32>, Error> {
 }
 
 /// Shapes of [`Corner`]s at `position`, turned by `degrees`.
-fn placed(position: [i32; 3], degrees: i32, scale: i32) -> Result<Matrix<i32>, Error> {
+fn placed<Q: Quality>(position: [i32; 3], degrees: i32, scale: i32) -> Result<Matrix<i32>, Error> {
     let axis = Block::from_integers([2, 3, 1]);
-    let turned = Matrix::rotation::<SineTable>(Angle::from_degrees(black_box(degrees)), axis)?;
+    let turned = Matrix::rotation::<Q::Trigonometry>(Angle::from_degrees(black_box(degrees)), axis)?;
     let model = Matrix::model(
         Block::from_integers(position),
         &turned,
         Block::from_integers([scale; 3]),
     );
-    Ok(projection()?.product(&model))
+    Ok(projection::<Q, i32>()?.product(&model))
 }
 
 /// Colours between the corners.
@@ -52,14 +53,14 @@ impl Program for Smooth {
     }
 }
 
-pub fn smooth(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn smooth<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let mut state = State::new(viewport()?);
     state.culling = Culling::Back;
     let (color, mut depth) = part.compared::<LessOrEqual>()?;
     let mut color = Surface::new(color, Rgb565);
-    let program = Smooth(placed([1, 0, -4], 33, 1)?);
+    let program = Smooth(placed::<Q>([1, 0, -4], 33, 1)?);
     pipeline::triangles(&state, &mut color, &mut depth, &program, BOX);
-    let program = Smooth(placed([-1, 0, -5], 120, 2)?);
+    let program = Smooth(placed::<Q>([-1, 0, -5], 120, 2)?);
     pipeline::triangles(&state.linear(), &mut color, &mut depth, &program, BOX);
     Ok(())
 }
@@ -86,14 +87,14 @@ impl Program for Sampled {
     }
 }
 
-pub fn linear_filter(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn linear_filter<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let (color, mut depth) = part.compared::<LessOrEqual>()?;
     let mut color = Surface::new(color, Rgb565);
     let sampler = Sampler::new(TEXTURE?, 20)
         .filtered(LinearFilter)
         .wrapped(Repeat, MirroredRepeat);
     for (degrees, scale) in [(20, 3), (75, 2)] {
-        let to_clip = placed([0, 0, -4], degrees, scale)?;
+        let to_clip = placed::<Q>([0, 0, -4], degrees, scale)?;
         let program = Sampled { to_clip, sampler };
         pipeline::triangles(&State::new(viewport()?), &mut color, &mut depth, &program, PLANE_XY);
     }
@@ -122,8 +123,8 @@ impl Program for Pane {
     }
 }
 
-pub fn blending(part: &mut Part<'_>) -> Result<(), Error> {
-    smooth(part)?;
+pub fn blending<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
+    smooth::<Q>(part)?;
     let state = State::new(viewport()?);
     let color = |eighths: [i32; 3], alpha| Rgba {
         color: eighths.map(|v| v * (ONE / 8)),
@@ -146,7 +147,7 @@ pub fn blending(part: &mut Part<'_>) -> Result<(), Error> {
     ];
     for ((position, eighths), blending) in panes.into_iter().zip([None, Some(added), Some(darkest)]) {
         let pane = Pane {
-            to_clip: placed(position, 15, 2)?,
+            to_clip: placed::<Q>(position, 15, 2)?,
             color: color(eighths, 5),
             holes: 0,
         };
@@ -181,19 +182,19 @@ impl Program for Two {
     }
 }
 
-pub fn two_targets(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn two_targets<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let mut targets = part.both()?;
-    let program = Two(placed([0, 0, -3], 50, 1)?);
+    let program = Two(placed::<Q>([0, 0, -3], 50, 1)?);
     pipeline::triangles(&State::new(viewport()?), &mut targets, &mut NoDepth, &program, BOX);
     Ok(())
 }
 
-pub fn discard(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn discard<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let (color, mut depth) = part.compared::<LessOrEqual>()?;
     let mut color = Surface::new(color, Rgb565);
     for (position, holes) in [([-1, 0, -3], 4), ([1, 0, -4], 8), ([0, 0, -5], 0)] {
         let pane = Pane {
-            to_clip: placed(position, 10 * holes, 2)?,
+            to_clip: placed::<Q>(position, 10 * holes, 2)?,
             color: Rgba {
                 color: [ONE / 16 * (holes + 1), ONE / 2, ONE],
                 alpha: ONE,
@@ -205,11 +206,11 @@ pub fn discard(part: &mut Part<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-pub fn lines(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn lines<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let (color, mut depth) = part.compared::<LessOrEqual>()?;
     let mut color = Surface::new(color, Rgb565);
     for i in 0..5 {
-        let program = Smooth(placed([i - 2, 0, -4], 33 * i, 1)?);
+        let program = Smooth(placed::<Q>([i - 2, 0, -4], 33 * i, 1)?);
         pipeline::lines(&State::new(viewport()?), &mut color, &mut depth, &program, BOX);
     }
     Ok(())

@@ -10,10 +10,11 @@ use fixel::disc::Disc;
 use fixel::draw;
 use fixel::error::Error;
 use fixel::fragment::{Antialiased, Flat, Fragment, Gouraud565};
+use fixel::quality::Quality;
 use fixel::screen::{Center, Corner, FineDepth, Position, SubPx};
 use fixel::square::Square;
 use fixel::texture::{Floor, Nearest, Rgb565, Texture};
-use fixel::varying::{Color565, Linear};
+use fixel::varying::Linear;
 
 use super::part::Part;
 
@@ -70,24 +71,24 @@ fn compared<C: Comparison>(part: &mut Part<'_>, triangles: impl Iterator<Item = 
     Ok(())
 }
 
-fn shaded(corners: Triangle) -> [Corner<Color565>; 3] {
+fn shaded<Q: Quality>(corners: Triangle) -> [Corner<Q::Color>; 3] {
     let [a, b, c] = corners;
     [(a, [255, 20, 90]), (b, [0, 200, 255]), (c, [240, 255, 3])]
-        .map(|(c, [red, green, blue])| corner(c, Gouraud565::corner(red, green, blue)))
+        .map(|(c, [red, green, blue])| corner(c, Gouraud565::corner(red, green, blue).into()))
 }
 
-pub fn gouraud(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn gouraud<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let mut color = part.color()?;
     for (corners, _) in triangles() {
-        draw::triangle(&mut color, &mut NoDepth, shaded(corners), &Gouraud565);
+        draw::triangle(&mut color, &mut NoDepth, shaded::<Q>(corners), &Q::GOURAUD);
     }
     Ok(())
 }
 
-pub fn gouraud_depth(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn gouraud_depth<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let (mut color, mut depth) = part.compared::<Less>()?;
     for (corners, _) in triangles() {
-        draw::triangle(&mut color, &mut depth, shaded(corners), &Gouraud565);
+        draw::triangle(&mut color, &mut depth, shaded::<Q>(corners), &Q::GOURAUD);
     }
     Ok(())
 }
@@ -122,7 +123,7 @@ pub fn texture_nearest(part: &mut Part<'_>) -> Result<(), Error> {
 }
 
 /// From one end of the guard band to the other.
-pub fn guard_band(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn guard_band<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     const FAR_OUT: i32 = 4096 << 8;
     const WIDE: [Triangle; 3] = [
         [
@@ -139,7 +140,7 @@ pub fn guard_band(part: &mut Part<'_>) -> Result<(), Error> {
     ];
     let (mut color, mut depth) = part.compared::<LessOrFar>()?;
     for corners in black_box(WIDE) {
-        draw::triangle(&mut color, &mut depth, shaded(corners), &Gouraud565);
+        draw::triangle(&mut color, &mut depth, shaded::<Q>(corners), &Q::GOURAUD);
     }
     Ok(())
 }
@@ -245,15 +246,15 @@ pub fn bresenham_lines(part: &mut Part<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-pub fn subpixel_lines(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn subpixel_lines<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let (mut color, mut depth) = part.compared::<Less>()?;
     for ends in star() {
         let [from, to] = ends;
         let ends = [
-            corner(from, Gouraud565::corner(255, 255, 255)),
-            corner(to, Gouraud565::corner(255, 40, 0)),
+            corner(from, Q::Color::from(Gouraud565::corner(255, 255, 255))),
+            corner(to, Gouraud565::corner(255, 40, 0).into()),
         ];
-        draw::segment(&mut color, &mut depth, ends, &Gouraud565);
+        draw::segment(&mut color, &mut depth, ends, &Q::GOURAUD);
     }
     Ok(())
 }
@@ -288,15 +289,15 @@ pub fn points(part: &mut Part<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-pub fn squares(part: &mut Part<'_>) -> Result<(), Error> {
+pub fn squares<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let (mut color, mut depth) = part.compared::<Less>()?;
     for (center, i) in places() {
         let square = Square::new(
             center,
             SubPx::from_bits(300 + 97 * i),
-            Gouraud565::corner(200, i as u8, 255 - i as u8),
+            Q::Color::from(Gouraud565::corner(200, i as u8, 255 - i as u8)),
         );
-        draw::square(&mut color, &mut depth, &square, &Gouraud565);
+        draw::square(&mut color, &mut depth, &square, &Q::GOURAUD);
     }
     Ok(())
 }

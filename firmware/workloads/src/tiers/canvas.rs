@@ -46,6 +46,11 @@ impl<P: Output> Canvas<P> {
     }
 
     /// The colours, row by row.
+    pub fn colors_mut(&mut self) -> &mut [P] {
+        &mut self.color
+    }
+
+    /// The colours, row by row.
     pub fn colors(&self) -> &[P] {
         &self.color
     }

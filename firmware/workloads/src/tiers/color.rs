@@ -1,5 +1,7 @@
 //! What becomes of a colour: an RGB565 pixel, which is counted, or what it was before it was rounded, which tells the error.
 
+use fixel::fragment::Fragment;
+use fixel::texture::TiledBilinear565;
 use fixel::varying::{Color565, Linear, Packed565, Varying};
 use fixel::view::Carried;
 
@@ -49,7 +51,16 @@ pub trait Output: Copy + PartialEq + 'static {
     fn interpolated<C: Color>(values: C::Values) -> Self;
     /// Of a texel.
     fn texel(stored: u16) -> Self;
+    /// Of the texels around a place.
+    fn filtered<V, const N: usize>(texels: &TiledBilinear565<'_, V, N, N>, place: [i32; 2]) -> Self
+    where
+        V: Varying<Values = [i32; 2]>;
+    /// White for black, and black for white.
+    fn inverted(self) -> Self;
 }
+
+/// Black, which unlike [`Output::EMPTY`] has been drawn.
+pub const BLACK: Levels = [0x8000; 3];
 
 /// RGB565: what a firmware shows.
 impl Output for u16 {
@@ -66,6 +77,18 @@ impl Output for u16 {
     #[inline(always)]
     fn texel(stored: u16) -> u16 {
         stored
+    }
+    #[inline(always)]
+    fn filtered<V, const N: usize>(texels: &TiledBilinear565<'_, V, N, N>, place: [i32; 2]) -> u16
+    where
+        V: Varying<Values = [i32; 2]>,
+    {
+        // Always a colour.
+        texels.shade(place, 0).unwrap_or(0)
+    }
+    #[inline(always)]
+    fn inverted(self) -> u16 {
+        !self
     }
 }
 
@@ -91,5 +114,15 @@ impl Output for Fine {
     fn texel(stored: u16) -> Fine {
         let channels = [stored >> 11, stored >> 5 & 63, stored & 31];
         Self::of(channels.map(|v| ((v as i32) << 16) + 0x8000))
+    }
+    fn filtered<V, const N: usize>(texels: &TiledBilinear565<'_, V, N, N>, place: [i32; 2]) -> Fine
+    where
+        V: Varying<Values = [i32; 2]>,
+    {
+        Self::of(texels.levels(place).map(|level| level + 0x8000))
+    }
+    fn inverted(self) -> Fine {
+        let Fine(channels) = self;
+        Fine(channels.map(|c| (255 << 16) - c))
     }
 }

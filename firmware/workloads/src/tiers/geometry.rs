@@ -200,3 +200,40 @@ pub static BRICKS: [[u16; SIDE]; SIDE] = {
     }
     texels
 };
+
+/// A wall that fills the view of the corridor's camera: where, in eye space, and how bright of 255. Linear over the wall.
+pub const SKY: [([i32; 3], i32); 4] = [
+    ([-9, -7, -8], 40),
+    ([9, -7, -8], 60),
+    ([9, 7, -8], 110),
+    ([-9, 7, -8], 90),
+];
+
+/// Triangles on the screen, either way round: columns and rows in units of 2^-16 px.
+pub static PIECES: [[[i32; 2]; 3]; 400] = {
+    let mut pieces = [[[0; 2]; 3]; 400];
+    let (mut piece, mut state) = (0, 1);
+    while piece < pieces.len() {
+        let (middle_x, next) = random(state, 160 << 16);
+        let (middle_y, next) = random(next, 120 << 16);
+        state = next;
+        let mut corner = 0;
+        while corner < 3 {
+            let (x, next) = random(state, 60 << 16);
+            let (y, next) = random(next, 60 << 16);
+            state = next;
+            pieces[piece][corner] = [middle_x + x - (30 << 16), middle_y + y - (30 << 16)];
+            corner += 1;
+        }
+        piece += 1;
+    }
+    pieces
+};
+
+/// A number below `limit`, and the next state (Knuth's MMIX).
+const fn random(state: u64, limit: i32) -> (i32, u64) {
+    let state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    ((((state >> 32) * limit as u64) >> 32) as i32, state)
+}

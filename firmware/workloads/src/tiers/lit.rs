@@ -11,9 +11,9 @@ use fixel::quality::Quality;
 
 use super::camera::{Camera, SPHERE};
 use super::canvas::Canvas;
-use super::color::{Color, Levels, MOST, Output};
+use super::color::{Levels, MOST, Output};
 use super::geometry::{Models, Point};
-use super::mesh::{smooth, vertices};
+use super::mesh::vertices;
 
 /// Towards the sun, in eye space.
 pub const SUN: [i32; 3] = [-3, 4, 5];
@@ -86,10 +86,4 @@ pub fn per_pixel<Q: Quality, P: Output>(canvas: &mut Canvas<P>, models: &Models)
         &fragment,
     );
     Ok(())
-}
-
-/// Light at every vertex, colours linear over the screen.
-pub fn per_vertex<Q: Quality<Color: Color>, P: Output>(canvas: &mut Canvas<P>, models: &Models) -> Result<(), Error> {
-    let (mut color, mut depth) = canvas.buffers()?;
-    smooth::<Q, P>(&mut color, &mut depth, &models.sphere, &SPHERE)
 }

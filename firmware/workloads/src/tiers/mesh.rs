@@ -12,7 +12,7 @@ use fixel::varying::Varying;
 use fixel::view::ScreenVertex;
 use heapless::Vec;
 
-use super::camera::{Camera, Eye, TORUS};
+use super::camera::{Camera, Eye, SPHERE, TORUS};
 use super::canvas::Canvas;
 use super::color::{Color, Output};
 use super::geometry::{Mesh, Models, Point};
@@ -70,6 +70,21 @@ where
 {
     let (mut color, _) = canvas.buffers()?;
     smooth::<Q, P>(&mut color, &mut NoDepth, &models.torus, &TORUS)
+}
+
+/// Light at every vertex of a sphere, which is drawn as well in any order: what is not seen of it faces away.
+pub fn sphere<Q: Quality<Color: Color>, P: Output>(canvas: &mut Canvas<P>, models: &Models) -> Result<(), Error> {
+    let (mut color, mut depth) = canvas.buffers()?;
+    smooth::<Q, P>(&mut color, &mut depth, &models.sphere, &SPHERE)
+}
+
+/// The same without a depth buffer.
+pub fn sphere_without_depth<Q: Quality<Color: Color>, P: Output>(
+    canvas: &mut Canvas<P>,
+    models: &Models,
+) -> Result<(), Error> {
+    let (mut color, _) = canvas.buffers()?;
+    smooth::<Q, P>(&mut color, &mut NoDepth, &models.sphere, &SPHERE)
 }
 
 /// A colour for each face: that of its first vertex.

@@ -9,10 +9,14 @@ pub mod camera;
 pub mod canvas;
 pub mod color;
 mod dials;
+mod edges;
 pub mod geometry;
+mod light;
 pub mod lit;
 mod mesh;
-mod textured;
+mod output;
+pub mod sines;
+pub mod textured;
 
 use core::fmt::{self, Write};
 use core::hint::black_box;
@@ -20,6 +24,7 @@ use core::hint::black_box;
 use canvas::Canvas;
 use color::Output;
 use fixel::error::Error;
+use fixel::num::{Micromath, ShortSine, SineTable};
 use fixel::quality::{Balanced, Exact, Fast};
 use geometry::Models;
 use heapless::String;
@@ -48,7 +53,7 @@ const fn case<P>(scene: &'static str, dial: &'static str, draw: Draw<P>) -> Case
 pub const TIERS: [&str; 3] = ["fast", "balanced", "exact"];
 
 /// Every scene in every tier, and with every dial that it has turned alone.
-pub const fn cases<P: Output>() -> [Case<P>; 28] {
+pub const fn cases<P: Output>() -> [Case<P>; 43] {
     [
         case("flat", "fast", mesh::flat::<Fast, P>),
         case("flat", "balanced", mesh::flat::<Balanced, P>),
@@ -77,7 +82,22 @@ pub const fn cases<P: Output>() -> [Case<P>; 28] {
         case("lit", "32-bit words", lit::per_pixel::<dials::Narrow, P>),
         case("lit", "1/2 texel", lit::per_pixel::<dials::HalfTexel, P>),
         case("lit", "affine", lit::per_pixel::<dials::Affine, P>),
-        case("lit", "per vertex", lit::per_vertex::<Exact, P>),
+        case("lit", "per vertex", mesh::sphere::<Exact, P>),
+        case("convex", "with depth", mesh::sphere::<Exact, P>),
+        case("convex", "without depth", mesh::sphere_without_depth::<Exact, P>),
+        case("filtered", "nearest", textured::unfiltered::<Exact, P>),
+        case("filtered", "linear", textured::filtered::<Exact, P>),
+        case("sky", "nearest", output::nearest),
+        case("sky", "dithered", output::dithered),
+        case("two levels", "nearest", output::nearest_of_two),
+        case("two levels", "dithered", output::dithered_to_two),
+        case("linear light", "at pixels", light::at_pixels),
+        case("linear light", "at vertices", light::at_vertices),
+        case("sines", "micromath", sines::draw::<Micromath, P>),
+        case("sines", "short table", sines::draw::<ShortSine, P>),
+        case("sines", "larger table", sines::draw::<SineTable, P>),
+        case("edges", "1/16 px", edges::draw::<4, P>),
+        case("edges", "1/256 px", edges::draw::<8, P>),
     ]
 }
 

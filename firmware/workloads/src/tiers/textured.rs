@@ -8,6 +8,7 @@ use fixel::error::Error;
 use fixel::fragment::Fragment;
 use fixel::num::Block;
 use fixel::quality::Quality;
+use fixel::texture::TiledBilinear565;
 use fixel::varying::Varying;
 use fixel::view::Carried;
 
@@ -37,27 +38,62 @@ impl<V: Varying<Values = [i32; 2]>, P: Output> Fragment for Tiled<'_, V, P> {
     }
 }
 
-/// Coordinates that are values in perspective of the tier.
-pub fn corridor<Q: Quality, P: Output>(canvas: &mut Canvas<P>, models: &Models) -> Result<(), Error> {
-    with::<Q::Perspective<2>, P>(canvas, models)
+/// The texels around a place of a texture that repeats.
+struct Smooth<'a, V, P> {
+    texels: TiledBilinear565<'a, V, SIDE, SIDE>,
+    kind: PhantomData<P>,
 }
 
-/// Coordinates of any kind.
-pub fn with<V, P>(canvas: &mut Canvas<P>, _: &Models) -> Result<(), Error>
+impl<V: Varying<Values = [i32; 2]>, P: Output> Fragment for Smooth<'_, V, P> {
+    type Varying = V;
+    type Pixel = P;
+
+    #[inline(always)]
+    fn shade(&self, coordinates: [i32; 2], _below: P) -> Option<P> {
+        Some(P::filtered(&self.texels, coordinates))
+    }
+}
+
+/// How many times the bricks are as large where they are [filtered](filtered), as a power of two.
+pub const MAGNIFIED: u32 = 2;
+
+/// The nearest texels, at coordinates that are values in perspective of the tier.
+pub fn corridor<Q: Quality, P: Output>(canvas: &mut Canvas<P>, _: &Models) -> Result<(), Error> {
+    draw(canvas, nearest::<Q::Perspective<2>, P>(), 16)
+}
+
+/// The nearest texels, large.
+pub fn unfiltered<Q: Quality, P: Output>(canvas: &mut Canvas<P>, _: &Models) -> Result<(), Error> {
+    draw(canvas, nearest::<Q::Perspective<2>, P>(), 16 - MAGNIFIED)
+}
+
+/// Large texels, filtered linearly.
+pub fn filtered<Q: Quality, P: Output>(canvas: &mut Canvas<P>, _: &Models) -> Result<(), Error> {
+    let fragment = Smooth::<Q::Perspective<2>, P> {
+        texels: TiledBilinear565::new(black_box(&BRICKS)),
+        kind: PhantomData,
+    };
+    draw(canvas, fragment, 16 - MAGNIFIED)
+}
+
+fn nearest<V, P>() -> Tiled<'static, V, P> {
+    Tiled {
+        texels: black_box(&BRICKS),
+        kind: PhantomData,
+    }
+}
+
+/// A texel of the model is 2^`bits` units of the fragments'.
+fn draw<F>(canvas: &mut Canvas<F::Pixel>, fragment: F, bits: u32) -> Result<(), Error>
 where
-    V: Varying<Values = [i32; 2]> + Carried<Vertex = [i32; 2]>,
-    P: Output,
+    F: Fragment<Varying: Carried<Vertex = [i32; 2]>, Pixel: Output>,
 {
     let (mut color, mut depth) = canvas.buffers()?;
     let view = CORRIDOR.view()?;
-    let fragment = Tiled::<V, P> {
-        texels: black_box(&BRICKS),
-        kind: PhantomData,
-    };
     for quad in black_box(&ROOM) {
         let vertices = quad.map(|corner| {
             let [x, y, z] = corner.position;
-            view.vertex(Block::from_integers([x, y, z, 1]), corner.texel.map(|c| c << 16))
+            view.vertex(Block::from_integers([x, y, z, 1]), corner.texel.map(|c| c << bits))
         });
         indexed(
             &view,

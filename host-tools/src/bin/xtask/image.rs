@@ -91,7 +91,12 @@ pub fn build_bare(board: &Board, toolchain: &Toolchain, name: &str) -> Result<Pa
 
 /// Where the image `name` for `board` is, once it is built.
 pub fn built(board: &Board, name: &str) -> PathBuf {
-    target_dir().join(board.target).join("release").join(name)
+    built_for(board, Profile::Fast, name)
+}
+
+/// The same of any profile.
+pub fn built_for(board: &Board, profile: Profile, name: &str) -> PathBuf {
+    target_dir().join(board.target).join(profile.profile()).join(name)
 }
 
 /// Builds images without data for `board`; the files, in order.

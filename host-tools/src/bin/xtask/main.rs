@@ -2,6 +2,7 @@
 
 mod added;
 mod board;
+mod called;
 mod callgrind;
 mod calls;
 mod chart;
@@ -26,6 +27,7 @@ mod outcome;
 mod parts;
 mod proofs;
 mod rivals;
+mod rooms;
 mod scale;
 mod scenes;
 mod sizes;

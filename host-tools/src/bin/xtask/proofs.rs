@@ -1,13 +1,13 @@
 //! What an image of the whole core does not have: a panic path, a float, a recursion; and that it has the whole core.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use crate::board::{Board, M0, M4};
+use crate::called::uncalled;
 use crate::calls::Calls;
 use crate::elf::Elf;
 use crate::failure::Failure;
-use crate::image::{build_bare, root};
+use crate::image::build_bare;
 use crate::toolchain::Toolchain;
 
 /// What is in the names of functions that panic. The image's own handler is called by nothing else, and so is not in an image
@@ -109,64 +109,6 @@ fn is_float(name: &str) -> bool {
     name.strip_prefix("__aeabi_").is_some_and(is_routine) || is_ends() || name.contains("compiler_builtins5float")
 }
 
-/// Public functions of the core that neither the scenes nor `everything` call.
-fn uncalled() -> Result<Vec<String>, Failure> {
-    let workloads = root().join("firmware/workloads/src");
-    let mut callers = read(&workloads.join("everything.rs"))?;
-    for file in sources(&workloads.join("scenes"))? {
-        callers += &read(&file)?;
-    }
-    let mut off = Vec::new();
-    for file in sources(&root().join("src"))? {
-        // For a feature that images of the core alone do not have.
-        if file.ends_with("eg.rs") {
-            continue;
-        }
-        let text = read(&file)?;
-        let missing = public_functions(&text).filter(|name| !is_called(name, &callers));
-        off.extend(missing.map(|name| format!("{}: {name} is called by no image", file.display())));
-    }
-    Ok(off)
-}
-
-/// Names of `pub fn`s, but for those in comments.
-fn public_functions(source: &str) -> impl Iterator<Item = &str> {
-    source.lines().filter_map(|line| {
-        let rest = line.trim_start().strip_prefix("pub ")?;
-        let rest = rest.strip_prefix("const ").unwrap_or(rest).strip_prefix("fn ")?;
-        rest.split(['(', '<']).next()
-    })
-}
-
-/// Whether `name(` or `name::<` is somewhere in the text, as a word.
-fn is_called(name: &str, text: &str) -> bool {
-    text.match_indices(name).any(|(at, _)| {
-        let before = text[..at].chars().next_back();
-        let after = &text[at + name.len()..];
-        !before.is_some_and(|c| c.is_alphanumeric() || c == '_') && (after.starts_with('(') || after.starts_with("::<"))
-    })
-}
-
-fn read(file: &Path) -> Result<String, Failure> {
-    fs::read_to_string(file).map_err(|e| Failure::trouble(file.display(), e))
-}
-
-/// The Rust files below a directory.
-fn sources(directory: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let trouble = |e| Failure::trouble(directory.display(), e);
-    let mut files = Vec::new();
-    for entry in fs::read_dir(directory).map_err(trouble)? {
-        let path = entry.map_err(trouble)?.path();
-        if path.is_dir() {
-            files.extend(sources(&path)?);
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
-            files.push(path);
-        }
-    }
-    files.sort();
-    Ok(files)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -201,22 +143,5 @@ mod tests {
     fn functions_belong_to_the_crate_that_they_are_of() {
         assert!(is_core("_RINvMNtCs7_5fixel6matrixE11perspectiveECsb_15fixel_workloads"));
         assert!(!is_core("_RINvNtCsb_15fixel_workloads5flatNtCs7_5fixel6target6BufferE"));
-    }
-
-    #[test]
-    fn an_uncalled_function_is_found() {
-        let source = "/// pub fn no()\n    pub const fn one(x: i32) {}\npub fn two<T>() {}\npub(crate) fn three() {}\n";
-        let functions: Vec<_> = public_functions(source).collect();
-        assert_eq!(functions, ["one", "two"]);
-        assert!(is_called("one", "x.one(1)") && is_called("two", "two::<i32>()"));
-        assert!(!is_called("one", "none(1); one = 2; one_more(3)"));
-    }
-
-    #[test]
-    fn the_images_call_everything() {
-        assert_eq!(
-            uncalled().unwrap_or_else(|failure| vec![failure.to_string()]),
-            Vec::<String>::new()
-        );
     }
 }

@@ -1,6 +1,6 @@
-//! The scenes that have the same bits on every board, whole and in strips.
+//! The scenes that have the same bits on every board, in every tier, whole and in strips.
 
-use std::collections::BTreeSet;
+use fixel::quality::{Balanced, Exact, Fast, Quality};
 
 use crate::board::{BOARDS, Board, MICROBIT};
 use crate::checks::differing;
@@ -9,21 +9,34 @@ use crate::outcome::{Outcome, find};
 use crate::toolchain::Toolchain;
 use crate::{emulator, host, image};
 
-/// Scenes that there must be in every tier.
+/// Scenes that there must be in every tier, whole and in strips.
 const FEWEST: usize = 24;
+
+/// The tiers that there must be.
+const TIERS: [&str; 3] = [Fast::NAME, Balanced::NAME, Exact::NAME];
 
 /// Draws every scene on every board and prints a line for each; what is off.
 pub fn check() -> Result<Vec<String>, Failure> {
     let expected = host::draw_scenes();
     let mut off = strips_differing(&expected);
     off.extend(too_few(&expected));
-    let mut drawn = Vec::new();
+    let (mut drawn, mut summaries) = (Vec::new(), Vec::new());
     for board in &BOARDS {
         let outcomes = draw(board, "scenes")?;
-        off.extend(differing(board.key, &outcomes, &expected));
+        let differing = differing(board.key, &outcomes, &expected);
+        summaries.push(format!(
+            "{} ({}): {} pictures, {} differ from the host's or are missing",
+            board.core,
+            board.machine,
+            outcomes.len(),
+            differing.len()
+        ));
+        off.extend(differing);
         drawn.push(outcomes);
     }
     print_table(&expected, &drawn);
+    println!("{}: {}", std::env::consts::ARCH, counted(&expected));
+    summaries.iter().for_each(|summary| println!("{summary}"));
     off.extend(check_strips(&expected)?);
     Ok(off)
 }
@@ -50,17 +63,37 @@ fn strips_differing(outcomes: &[Outcome]) -> Vec<String> {
     outcomes.iter().filter_map(complaint).collect()
 }
 
+/// What there should be of every tier, and is not.
 fn too_few(outcomes: &[Outcome]) -> Vec<String> {
-    let tiers: BTreeSet<_> = outcomes.iter().filter_map(whole).map(|(tier, _)| tier).collect();
-    let scenes = |tier: &str| outcomes.iter().filter_map(whole).filter(|(t, _)| *t == tier).count();
-    let few = tiers.iter().filter(|tier| scenes(tier) < FEWEST);
-    let mut off: Vec<_> = few
-        .map(|tier| format!("tier {tier}: fewer than {FEWEST} scenes"))
-        .collect();
-    if tiers.is_empty() {
-        off.push("no scenes".into());
-    }
-    off
+    let complaint = |tier: &&str| {
+        let scenes: Vec<_> = scenes_of(outcomes, tier).collect();
+        let strips = |scene: &&Outcome| {
+            let begins = format!("{}@", scene.name);
+            outcomes.iter().any(|outcome| outcome.name.starts_with(&begins))
+        };
+        let whole = scenes.len();
+        let in_strips = scenes.into_iter().filter(strips).count();
+        (in_strips < FEWEST)
+            .then(|| format!("tier {tier}: {whole} scenes, {in_strips} of them in strips: fewer than {FEWEST}"))
+    };
+    TIERS.iter().filter_map(complaint).collect()
+}
+
+fn scenes_of<'a>(outcomes: &'a [Outcome], tier: &str) -> impl Iterator<Item = &'a Outcome> {
+    outcomes
+        .iter()
+        .filter(move |o| whole(o).is_some_and(|(t, _)| t == tier))
+}
+
+/// How much is compared, in words.
+fn counted(outcomes: &[Outcome]) -> String {
+    let scenes = TIERS.map(|tier| format!("{} {tier}", scenes_of(outcomes, tier).count()));
+    let strips = outcomes.iter().filter(|o| whole(o).is_none()).count();
+    format!(
+        "{} scenes, whole, and {strips} of strips: {} pictures",
+        scenes.join(", "),
+        outcomes.len()
+    )
 }
 
 /// One line a scene: its checksums and its instructions on each board.
@@ -146,8 +179,17 @@ mod tests {
 
     #[test]
     fn too_few_scenes_are_found() {
-        assert!(too_few(&host::draw_scenes()).is_empty());
-        assert_eq!(too_few(&[outcome("exact/a", 7)]).len(), 1);
-        assert_eq!(too_few(&[]).len(), 1);
+        let all = host::draw_scenes();
+        assert!(too_few(&all).is_empty());
+        assert_eq!(too_few(&[]).len(), TIERS.len());
+        let without = |begins: &str| {
+            all.iter()
+                .filter(|o| !o.name.starts_with(begins))
+                .cloned()
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(too_few(&without("balanced/")).len(), 1);
+        let whole = all.iter().filter(|o| whole(o).is_some()).cloned().collect::<Vec<_>>();
+        assert_eq!(too_few(&whole).len(), TIERS.len());
     }
 }

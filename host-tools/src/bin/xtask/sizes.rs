@@ -11,6 +11,7 @@ use crate::emulator;
 use crate::failure::Failure;
 use crate::image::{self, Profile, root};
 use crate::outcome::{Outcome, find};
+use crate::rooms;
 use crate::toolchain::Toolchain;
 
 /// Bytes may grow by three hundredths.
@@ -63,6 +64,7 @@ pub fn check(update: bool) -> Result<Vec<String>, Failure> {
         let toolchain = Toolchain::find(board.target)?;
         let sizes = sizes(board, &toolchain)?;
         print_sizes(board, toolchain.version(), &sizes);
+        print_rooms(board)?;
         judge(board.target, toolchain.version(), &sizes);
     }
     let toolchain = Toolchain::find(M4.target)?;
@@ -128,6 +130,15 @@ fn print_sizes(board: &Board, compiler: &str, sizes: &[(String, u32)]) {
             }
         );
     }
+}
+
+/// Where the flash of the largest image goes, once it is built.
+fn print_rooms(board: &Board) -> Result<(), Failure> {
+    let file = image::built_for(board, Profile::Small, "size_everything");
+    let bytes = fs::read(&file).map_err(|e| Failure::trouble(file.display(), e))?;
+    let image = Elf::parse(&bytes).ok_or_else(|| Failure::Trouble(format!("{}: not an image", file.display())))?;
+    rooms::print(&image);
+    Ok(())
 }
 
 /// Bytes of stack of every kind of triangle on the reference.

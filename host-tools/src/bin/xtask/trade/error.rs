@@ -1,5 +1,6 @@
 //! How far the core's colours are from float64's.
 
+use fixel_workloads::tiers::canvas::{HEIGHT, WIDTH};
 use fixel_workloads::tiers::color::{Fine, Output};
 
 use super::reference::Picture;
@@ -20,18 +21,31 @@ pub struct Errors {
 impl Errors {
     /// Of the pixels that both have drawn, and that show the same triangle wherever within the snapping their middle is.
     pub fn of(fine: &[Fine], reference: &Picture) -> Option<Self> {
-        let pairs = fine
-            .iter()
-            .zip(reference.sure())
-            .filter(|(fine, _)| **fine != Fine::EMPTY);
-        let levels = |Fine(channels): &Fine| channels.map(|c| f64::from(c) / 65536.0);
-        let pairs = pairs.filter_map(|(fine, exact)| Some((levels(fine), exact?)));
-        Self::of_colors(&pairs.collect::<Vec<_>>())
+        Self::of_colors(&pairs(fine, reference).flatten().collect::<Vec<_>>())
+    }
+
+    /// Of the means of 4×4 such pixels.
+    pub fn of_means(fine: &[Fine], reference: &Picture) -> Option<Self> {
+        const SIDE: usize = 4;
+        let pairs: Vec<_> = pairs(fine, reference).collect();
+        let width = usize::from(WIDTH);
+        let corners = (0..usize::from(HEIGHT)).step_by(SIDE);
+        let corners = corners.flat_map(|y| (0..width).step_by(SIDE).map(move |x| y * width + x));
+        let means = corners.filter_map(|corner| {
+            let block = (0..SIDE * SIDE).map(|i| corner + i / SIDE * width + i % SIDE);
+            let block: Vec<Pair> = block.map(|i| *pairs.get(i)?).collect::<Option<_>>()?;
+            let mean = |of: fn(&Pair) -> [f64; 3]| {
+                let sum = |channel: usize| block.iter().map(|pair| of(pair)[channel]).sum::<f64>();
+                [0, 1, 2].map(|channel| sum(channel) / (SIDE * SIDE) as f64)
+            };
+            Some((mean(|pair| pair.0), mean(|pair| pair.1)))
+        });
+        Self::of_colors(&means.collect::<Vec<_>>())
     }
 
     /// Of pairs of colours in levels of 255; `None` of none.
-    fn of_colors(colors: &[([f64; 3], [f64; 3])]) -> Option<Self> {
-        let largest = |(color, exact): &([f64; 3], [f64; 3])| {
+    fn of_colors(colors: &[Pair]) -> Option<Self> {
+        let largest = |(color, exact): &Pair| {
             let errors = color.iter().zip(exact).map(|(a, b)| (a - b).abs());
             errors.fold(0.0, f64::max)
         };
@@ -47,6 +61,16 @@ impl Errors {
     }
 }
 
+/// A colour and what it should be, in levels of 255.
+type Pair = ([f64; 3], [f64; 3]);
+
+/// The colours of every pixel that both have drawn and that is sure.
+fn pairs(fine: &[Fine], reference: &Picture) -> impl Iterator<Item = Option<Pair>> {
+    let levels = |Fine(channels): &Fine| channels.map(|c| f64::from(c) / 65536.0);
+    let pairs = fine.iter().zip(reference.sure());
+    pairs.map(move |(fine, exact)| (*fine != Fine::EMPTY).then_some((levels(fine), exact?)))
+}
+
 /// The nearest levels of RGB565.
 fn rgb565(color: [f64; 3]) -> [i32; 3] {
     let most = [31.0, 63.0, 31.0];
@@ -55,6 +79,8 @@ fn rgb565(color: [f64; 3]) -> [i32; 3] {
 
 #[cfg(test)]
 mod tests {
+    use fixel_workloads::tiers::geometry::Models;
+
     use super::*;
 
     #[test]
@@ -72,6 +98,33 @@ mod tests {
             })
         );
         assert_eq!(Errors::of_colors(&[]), None);
+    }
+
+    /// A picture of angles, each pixel off by what `off` says of its place.
+    fn errors_with(off: impl Fn(usize) -> f64) -> [f64; 2] {
+        let picture = Picture::named("sines", &Models::new(), 0.0).unwrap();
+        let pixels = picture.sure().enumerate();
+        let fine = pixels.map(|(i, exact)| Fine(exact.unwrap().map(|c| ((c + off(i)) * 65536.0).round() as i32)));
+        let fine: Vec<_> = fine.collect();
+        [Errors::of(&fine, &picture), Errors::of_means(&fine, &picture)].map(|errors| errors.unwrap().mean)
+    }
+
+    #[test]
+    fn what_4_by_4_pixels_make_up_for_is_no_error_of_their_mean() {
+        let board = |i: usize| {
+            if (i + i / usize::from(WIDTH)).is_multiple_of(2) {
+                8.0
+            } else {
+                -8.0
+            }
+        };
+        let [pixel, mean] = errors_with(board);
+        assert!((pixel - 8.0).abs() < 1e-4 && mean < 1e-4, "{pixel}, {mean}");
+        let [pixel, mean] = errors_with(|_| 3.0);
+        assert!(
+            (pixel - 3.0).abs() < 1e-4 && (mean - 3.0).abs() < 1e-4,
+            "{pixel}, {mean}"
+        );
     }
 
     #[test]

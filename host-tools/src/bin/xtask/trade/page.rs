@@ -15,7 +15,44 @@ pub fn title(scene: &str) -> &str {
         "gouraud" => "Gouraud mesh",
         "textured" => "textured in perspective",
         "lit" => "lit per pixel",
+        "convex" => "depth of what is convex",
+        "filtered" => "linear filtering",
+        "sky" => "output in RGB565",
+        "sky by 4×4" => "output in RGB565, means of 4×4 pixels",
+        "two levels" => "output in black and white",
+        "two levels by 4×4" => "output in black and white, means of 4×4 pixels",
+        "sines" => "sine and cosine",
+        "edges" => "subpixel bits",
         other => other,
+    }
+}
+
+/// What is drawn, and what errors are measured against, where that is not a scene of the tiers.
+fn note(scene: &str) -> &str {
+    match scene {
+        "convex" => {
+            "A sphere lit at its vertices. What is not seen of it faces away, and any order will do: \
+             here depth costs and changes nothing.\n\n"
+        }
+        "filtered" => "The corridor with bricks four times as large, against linear filtering.\n\n",
+        "sky" => "A grey that changes by 70 levels over the picture. The error is that of a pixel.\n\n",
+        "two levels" => "The same grey, all of which black is nearer to than white. The error is that of a pixel.\n\n",
+        "sky by 4×4" | "two levels by 4×4" => {
+            "The same pictures. The error is that of the mean of 4×4 pixels, which is what an eye at some distance sees.\n\n"
+        }
+        "linear light" => {
+            "The Gouraud mesh with colours that are linear light: encoded as sRGB at every pixel, which is what it is \
+             measured against, or at the vertices.\n\n"
+        }
+        "sines" => {
+            "Sine and cosine of one angle for each pixel, −1 shown as 0 and 1 as 255. Some 20 instructions of each are the \
+             picture's.\n\n"
+        }
+        "edges" => {
+            "400 triangles all over the picture invert what they cover, against corners that are not rounded. A pixel is \
+             right or 255 levels off.\n\n"
+        }
+        _ => "",
     }
 }
 
@@ -57,9 +94,10 @@ pub fn details(sweeps: &[Sweep]) -> String {
     for sweep in sweeps {
         let machines = MACHINES.map(|(_, name)| name).join(" | ");
         text += &format!(
-            "## {}\n\n{} pixels. **Bold**: on the front of that machine.\n\n\
+            "## {}\n\n{}{} pixels. **Bold**: on the front of that machine.\n\n\
              | | {machines} | mean error | 99.9 % within | RGB565 differs | largest |\n|---|{}---|---|---|---|\n",
             capital(title(&sweep.scene)),
+            note(&sweep.scene),
             sweep.pixels,
             "---|".repeat(MACHINES.len())
         );

@@ -77,10 +77,10 @@ impl Axis {
     }
 }
 
-/// Panels of the sweeps that trade anything, Cortex-M4 to the left and M0 to the right.
+/// Panels of the tiers that trade anything, Cortex-M4 to the left and M0 to the right.
 pub fn draw(sweeps: &[Sweep]) -> String {
     let (across, down) = (LEFT + WIDTH + RIGHT, TOP + HEIGHT + BOTTOM);
-    let sweeps: Vec<_> = sweeps.iter().filter(|sweep| sweep.scene != "flat").collect();
+    let sweeps: Vec<_> = sweeps.iter().filter(|sweep| trades(sweep)).collect();
     let (width, height) = (2.0 * across, HEADER + sweeps.len() as f64 * down);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\">\n\
@@ -105,6 +105,10 @@ pub fn draw(sweeps: &[Sweep]) -> String {
         }
     }
     svg + "</svg>\n"
+}
+
+fn trades(sweep: &Sweep) -> bool {
+    sweep.scene != "flat" && TIERS.iter().all(|tier| sweep.point(tier).is_some())
 }
 
 fn panel(svg: &mut String, sweep: &Sweep, machine: usize) {
@@ -228,13 +232,15 @@ mod tests {
     fn every_point_is_drawn_and_named_on_both_machines() {
         let points = vec![
             point("fast", 10.0, 2.0),
+            point("balanced", 20.0, 1.0),
             point("exact", 30.0, 0.5),
             point("affine", 29.0, 0.5),
         ];
-        let svg = draw(&[sweep(points)]);
-        assert_eq!(svg.matches("<circle").count(), 6);
+        let alone = sweep(vec![point("nearest", 10.0, 2.0)]);
+        let svg = draw(&[sweep(points), alone]);
+        assert_eq!(svg.matches("<circle").count(), 8);
         assert!(
-            ["fast", "exact", "affine"]
+            ["fast", "balanced", "exact", "affine"]
                 .iter()
                 .all(|name| svg.matches(&format!(">{name}<")).count() == 2)
         );

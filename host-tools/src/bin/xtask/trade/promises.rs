@@ -14,6 +14,12 @@ const TRADES: [&str; 3] = ["gouraud", "textured", "lit"];
 const BEATEN: (&str, &str, &str) = ("textured", "m4", "fast");
 /// Scenes in which the fast tier must cost at most half of the exact one on Cortex-M0.
 const HALVED: [&str; 2] = ["textured", "lit"];
+/// Scenes of a dial that is offered: every one of its values must be on the front of these machines.
+const OFFERED: [&str; 4] = ["filtered", "sky by 4×4", "two levels by 4×4", "linear light"];
+/// Scene, what is not offered, and what must be nearer on every machine for no more instructions.
+const DROPPED: [[&str; 3]; 2] = [["sines", "micromath", "short table"], ["edges", "1/16 px", "1/256 px"]];
+/// A difference in cost that is none.
+const AS_MANY: f64 = 0.01;
 /// The first machines of [`MACHINES`], Cortex-M4 and M0.
 const JUDGED: usize = 2;
 /// How far stored figures may be off.
@@ -44,6 +50,26 @@ pub fn broken(sweeps: &[Sweep]) -> Vec<String> {
             if front.len() < 3 {
                 off.push(format!("{scene} on {key}: {} points on the front", front.len()));
             }
+        }
+    }
+    for scene in OFFERED {
+        let Some(sweep) = named(scene) else {
+            off.push(format!("{scene}: not drawn"));
+            continue;
+        };
+        for (machine, (key, _)) in MACHINES.iter().enumerate().take(JUDGED) {
+            let beaten = sweep.points.iter().filter(|point| !sweep.is_on_front(point, machine));
+            off.extend(beaten.map(|point| format!("{scene} on {key}: {} trades nothing", point.dial)));
+        }
+    }
+    for [scene, dropped, offered] in DROPPED {
+        let point = |dial: &str| named(scene)?.point(dial);
+        let beats = |(better, worse): (&Point, &Point)| {
+            let mut costs = better.instructions.iter().zip(worse.instructions);
+            better.errors.mean < worse.errors.mean && costs.all(|(b, w)| *b <= w * (1.0 + AS_MANY))
+        };
+        if !point(offered).zip(point(dropped)).is_some_and(beats) {
+            off.push(format!("{scene}: {dropped} is not beaten by {offered}"));
         }
     }
     for scene in HALVED {
@@ -108,12 +134,33 @@ mod tests {
             point("balanced", 20.0, 1.0),
             point("exact", 30.0, 0.5),
         ];
-        TRADES
-            .map(|scene| Sweep {
-                scene: scene.into(),
-                ..sweep(points.clone())
-            })
-            .into()
+        let tiers = TRADES.map(|scene| Sweep {
+            scene: scene.into(),
+            ..sweep(points.clone())
+        });
+        let offered = OFFERED.map(|scene| Sweep {
+            scene: scene.into(),
+            ..sweep(vec![point("off", 10.0, 2.0), point("on", 11.0, 1.0)])
+        });
+        let dropped = DROPPED.map(|[scene, dropped, offered]| Sweep {
+            scene: scene.into(),
+            ..sweep(vec![point(dropped, 10.0, 2.0), point(offered, 10.05, 1.0)])
+        });
+        tiers.into_iter().chain(offered).chain(dropped).collect()
+    }
+
+    #[test]
+    fn a_dial_trades_or_is_dropped() {
+        let mut all = good();
+        all[3].points[1] = point("on", 11.0, 2.0);
+        assert_eq!(broken(&all).len(), 2);
+        all[7].points[1] = point(DROPPED[0][2], 10.2, 1.0);
+        assert_eq!(broken(&all).len(), 3);
+        all[8].points[1] = point(DROPPED[1][2], 10.0, 2.0);
+        assert_eq!(broken(&all).len(), 4);
+        all.truncate(7);
+        all.remove(4);
+        assert_eq!(broken(&all).len(), 5);
     }
 
     #[test]
@@ -125,7 +172,7 @@ mod tests {
         // Off the front of both machines, which then have two points.
         dear[2].points[1] = point("balanced", 16.0, 3.0);
         assert_eq!(broken(&dear).len(), 5);
-        dear.pop();
+        dear.remove(2);
         assert_eq!(broken(&dear).len(), 2);
     }
 

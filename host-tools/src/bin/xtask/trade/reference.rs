@@ -5,18 +5,22 @@
 use fixel_workloads::tiers::camera::{CORRIDOR, Camera, SPHERE, TORUS};
 use fixel_workloads::tiers::canvas::{HEIGHT, WIDTH};
 use fixel_workloads::tiers::color::{Levels, MOST};
-use fixel_workloads::tiers::geometry::{BRICKS, Mesh, Models, Point, ROOM};
+use fixel_workloads::tiers::geometry::{BRICKS, Mesh, Models, Point, ROOM, SKY};
 use fixel_workloads::tiers::lit;
+use fixel_workloads::tiers::textured::MAGNIFIED;
 
-type Vector = [f64; 3];
+use super::plain;
+
+/// Three of anything.
+pub type Vector = [f64; 3];
 
 /// What a pixel shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+struct Sample {
     /// Which triangle.
     triangle: usize,
     /// In levels of 255.
-    pub color: Vector,
+    color: Vector,
 }
 
 /// How a triangle is coloured; a value for each corner.
@@ -25,8 +29,12 @@ enum Paint {
     Flat(Vector),
     /// Linear over the screen.
     Smooth([Vector; 3]),
+    /// Linear light, linear over the screen, and encoded there.
+    Light([Vector; 3]),
     /// Texels, linear in space.
     Bricks([[f64; 2]; 3]),
+    /// Places among texels, linear in space, that are filtered linearly.
+    Filtered([[f64; 2]; 3]),
     /// Place in eye space and normal, linear in space.
     Lit([Vector; 3], [Vector; 3]),
 }
@@ -40,7 +48,7 @@ struct Triangle {
 }
 
 /// A scene.
-pub struct Scene(Vec<Triangle>);
+struct Scene(Vec<Triangle>);
 
 fn dot(a: Vector, b: Vector) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
@@ -101,15 +109,29 @@ fn mesh(mesh: &Mesh, camera: &Camera, paint: impl Fn([Vector; 3], [Vector; 3]) -
         .collect()
 }
 
-fn corridor() -> Vec<Triangle> {
+/// `paint` has the corners' texels.
+fn corridor(paint: impl Fn([[f64; 2]; 3]) -> Paint) -> Vec<Triangle> {
     let halves = ROOM.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
     halves
         .map(|corners| {
             let texels = corners.map(|corner| corner.texel.map(f64::from));
             let places = corners.map(|corner| corner.position.map(f64::from));
-            triangle(places, &CORRIDOR, Paint::Bricks(texels))
+            triangle(places, &CORRIDOR, paint(texels))
         })
         .collect()
+}
+
+fn sky() -> Vec<Triangle> {
+    let [a, b, c, d] = SKY;
+    let half = |corners: [([i32; 3], i32); 3]| {
+        let colors = corners.map(|(_, grey)| [f64::from(grey); 3]);
+        triangle(
+            corners.map(|(place, _)| place.map(f64::from)),
+            &CORRIDOR,
+            Paint::Smooth(colors),
+        )
+    };
+    vec![half([a, b, c]), half([a, c, d])]
 }
 
 /// The sun, diffuse and Blinn-Phong.
@@ -125,24 +147,52 @@ fn shade(position: Vector, normal: Vector) -> Vector {
     std::array::from_fn(|i| 255.0 * sunlight[i] * (cosine * surface[i] + highlight))
 }
 
+/// The level of 255 of linear light of 255.
+fn encoded(light: f64) -> f64 {
+    let light = light / 255.0;
+    255.0
+        * if light <= 0.003_130_8 {
+            12.92 * light
+        } else {
+            1.055 * light.powf(1.0 / 2.4) - 0.055
+        }
+}
+
+/// In levels of 255.
+fn brick(i: f64, j: f64) -> Vector {
+    let [i, j] = [i, j].map(|c| c.rem_euclid(64.0) as usize);
+    let texel = BRICKS[j][i];
+    let channels = [texel >> 11, texel >> 5 & 63, texel & 31];
+    levels(channels.map(|c| i32::from(c) << 16))
+}
+
 impl Scene {
     /// The scene called `name`.
-    pub fn named(name: &str, models: &Models) -> Option<Self> {
+    fn named(name: &str, models: &Models) -> Option<Self> {
+        let at_corners = |at: [Vector; 3], normals: [Vector; 3]| std::array::from_fn(|i| shade(at[i], normals[i]));
         Some(Scene(match name {
             "flat" => mesh(&models.torus, &TORUS, |at, normals| {
                 Paint::Flat(shade(at[0], normals[0]))
             }),
             "gouraud" => mesh(&models.torus, &TORUS, |at, normals| {
-                Paint::Smooth(std::array::from_fn(|i| shade(at[i], normals[i])))
+                Paint::Smooth(at_corners(at, normals))
             }),
-            "textured" => corridor(),
+            "linear light" => mesh(&models.torus, &TORUS, |at, normals| {
+                Paint::Light(at_corners(at, normals))
+            }),
+            "convex" => mesh(&models.sphere, &SPHERE, |at, normals| {
+                Paint::Smooth(at_corners(at, normals))
+            }),
+            "textured" => corridor(Paint::Bricks),
+            "filtered" => corridor(Paint::Filtered),
+            "sky" | "two levels" => sky(),
             "lit" => mesh(&models.sphere, &SPHERE, Paint::Lit),
             _ => return None,
         }))
     }
 
     /// What a point of the screen shows, in pixels.
-    pub fn sample(&self, point: [f64; 2]) -> Option<Sample> {
+    fn sample(&self, point: [f64; 2]) -> Option<Sample> {
         let depth = |triangle: &Triangle, weights: Vector| dot(weights, triangle.depth);
         let all = self.0.iter().enumerate();
         let there = all.filter_map(|(number, triangle)| Some((number, triangle, triangle.weights(point)?)));
@@ -154,7 +204,7 @@ impl Scene {
     }
 
     /// Every pixel at its middle, and whether everything within `reach` pixels of it shows the same triangle.
-    pub fn picture(&self, reach: f64) -> Picture {
+    fn picture(&self, reach: f64) -> Picture {
         let pixels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
         let around = [[-reach, -reach], [-reach, reach], [reach, -reach], [reach, reach]];
         let pixel = |(x, y)| {
@@ -173,6 +223,19 @@ impl Scene {
 pub struct Picture(Vec<(Option<Sample>, bool)>);
 
 impl Picture {
+    /// What is called `name`. Pixels are sure where everything within `reach` pixels shows the same triangle.
+    pub fn named(name: &str, models: &Models, reach: f64) -> Option<Self> {
+        let of_colors = |colors: Vec<Vector>| {
+            let sample = |color| (Some(Sample { triangle: 0, color }), true);
+            Picture(colors.into_iter().map(sample).collect())
+        };
+        match name {
+            "sines" => Some(of_colors(plain::sines())),
+            "edges" => Some(of_colors(plain::edges())),
+            scene => Some(Scene::named(scene, models)?.picture(reach)),
+        }
+    }
+
     /// How many pixels show something.
     pub fn covered(&self) -> usize {
         self.0.iter().filter(|(sample, _)| sample.is_some()).count()
@@ -205,11 +268,17 @@ impl Triangle {
         match &self.paint {
             Paint::Flat(color) => *color,
             Paint::Smooth(colors) => mix(weights, *colors),
+            Paint::Light(colors) => mix(weights, *colors).map(encoded),
             Paint::Bricks(texels) => {
-                let [i, j] = mix(in_space, *texels).map(|c| c.floor().rem_euclid(64.0) as usize);
-                let texel = BRICKS[j][i];
-                let channels = [texel >> 11, texel >> 5 & 63, texel & 31];
-                levels(channels.map(|c| i32::from(c) << 16))
+                let [i, j] = mix(in_space, *texels).map(f64::floor);
+                brick(i, j)
+            }
+            Paint::Filtered(texels) => {
+                let magnified = f64::from(1 << MAGNIFIED);
+                let place = mix(in_space, *texels).map(|c| c / magnified - 0.5);
+                let [(i, s), (j, t)] = place.map(|c| (c.floor(), c - c.floor()));
+                let row = |j: f64| mix([1.0 - s, s, 0.0], [brick(i, j), brick(i + 1.0, j), [0.0; 3]]);
+                mix([1.0 - t, t, 0.0], [row(j), row(j + 1.0), [0.0; 3]])
             }
             Paint::Lit(places, normals) => shade(mix(in_space, *places), mix(in_space, *normals)),
         }
