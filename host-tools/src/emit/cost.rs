@@ -5,7 +5,7 @@ use std::fmt::Write;
 use fixel::light::Light;
 
 use super::analyse::{Analysed, Depth};
-use super::drawing::{Drawing, Lights, Paint, Pixels, Program, Varying};
+use super::drawing::{Drawing, Lights, Paint, Pixels, Program, Surface, Varying};
 use super::replay::Work;
 use super::write::Sorted;
 use super::write::kinds::{Form, Kind, Place};
@@ -153,7 +153,6 @@ fn counts(lights: &Lights) -> (usize, usize) {
 }
 
 fn program(program: &Program) -> &'static str {
-    use super::drawing::Surface;
     match program {
         Program::Flat(_) => "flat",
         Program::Surface { surface, lit, .. } => match (surface, lit.is_some()) {
@@ -284,7 +283,6 @@ fn instructions(analysed: &Analysed, sorted: &Sorted<'_>, strips: u64) -> u64 {
     let drawing = sorted.drawing;
     let samples = f64::from(drawing.width) * f64::from(drawing.height) * f64::from(drawing.level.pow(2));
     let clear = match drawing.pixels {
-        Pixels::Blended(units) if units.srgb => 150.0,
         Pixels::Blended(_) => 60.0,
         Pixels::Bytes | Pixels::Opaque(_) => 2.0,
     };
@@ -313,7 +311,12 @@ fn of_shape(sorted: &Sorted<'_>, kind: &Kind, work: &Work, strips: f64) -> f64 {
         Varying::Perspective => (
             800.0 + 600.0 * (values + depth),
             90.0 + 50.0 * values,
-            120.0 + 40.0 * values,
+            // Nothing is divided where w is the same everywhere.
+            if kind.has_one_w() {
+                20.0 + 25.0 * values
+            } else {
+                120.0 + 40.0 * values
+            },
         ),
     };
     let shines = match &kind.program {
@@ -327,12 +330,24 @@ fn of_shape(sorted: &Sorted<'_>, kind: &Kind, work: &Work, strips: f64) -> f64 {
         200.0 + 50.0 * suns as f64 + 190.0 * bulbs as f64 + highlights
     });
     let blend = match &kind.program {
-        Program::Paint(Paint::Decal { .. }) => 130.0,
+        Program::Paint(Paint::Decal { .. }) => 300.0,
         Program::Paint(_) if sorted.blends() => 130.0,
+        _ => 0.0,
+    };
+    let fetch = match &kind.program {
+        Program::Surface { surface, .. } => matches!(surface, Surface::Textured(_) | Surface::Decal(..)),
+        Program::Paint(paint) => matches!(paint, Paint::Texels(_) | Paint::Decal { .. }),
+        _ => false,
+    };
+    let fetch = if fetch { 20.0 } else { 0.0 };
+    // Encoded where a pixel is stored, or where all samples are finished.
+    let encode = match sorted.drawing.pixels {
+        Pixels::Blended(units) if units.srgb => 90.0,
+        Pixels::Opaque(units) if units.srgb => 240.0,
         _ => 0.0,
     };
     per_strip * strips
         + per_span * work.spans as f64
         + per_sample * work.covered as f64
-        + (lights + blend) * work.shaded as f64
+        + (lights + blend + fetch + encode) * work.shaded as f64
 }

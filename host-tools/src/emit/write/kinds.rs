@@ -201,6 +201,17 @@ impl Kind {
         };
         self.varying == Varying::Perspective && self.corners.iter().any(differs)
     }
+
+    /// Whether all corners have the same w.
+    pub fn has_one_w(&self) -> bool {
+        let inverse = |place: &Place| match place {
+            Place::Corner(corner) => Some(corner.inverse),
+            _ => None,
+        };
+        let mut inverses = self.corners.iter().map(inverse);
+        let first = inverses.next();
+        inverses.all(|inverse| Some(inverse) == first)
+    }
 }
 
 fn form(shape: &Shape) -> Form {
