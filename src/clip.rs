@@ -10,7 +10,9 @@
 //! once. The cut point lies within 2^(2−BITS) of the largest component of either end from the true one, and on the line
 //! through the two.
 
-use heapless::Vec;
+use core::hint::black_box;
+
+use heapless::{Vec, VecView};
 
 use crate::error::Error;
 use crate::num::{Block, Wide, Word};
@@ -70,7 +72,7 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
     /// Corners.
     #[inline]
     pub fn len(&self) -> usize {
-        self.built_in.len() + self.user.len()
+        self.held().len()
     }
 
     /// Whether nothing is left.
@@ -80,28 +82,112 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
     }
 
     /// Corner `index`.
-    ///
-    /// A function of its own: where the two parts meet is decided in many places of a small program otherwise.
-    #[inline(never)]
+    #[inline]
     pub fn get(&self, index: usize) -> Option<&C> {
-        self.built_in
-            .get(index)
-            .or_else(|| self.user.get(index.wrapping_sub(BUILT_IN)))
+        self.held().get(index)
     }
 
     /// All corners in order.
     #[inline]
     pub fn iter(&self) -> impl Iterator<Item = &C> {
-        (0..self.len()).filter_map(|i| self.get(i))
+        self.held().iter()
     }
 
-    /// All corners in order, to change them.
-    #[inline]
-    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut C> {
-        self.built_in.iter_mut().chain(self.user.iter_mut())
+    /// Its corners, to read.
+    #[inline(always)]
+    pub(crate) fn held(&self) -> Held<'_, C> {
+        Held {
+            built_in: &self.built_in,
+            user: &self.user,
+        }
+    }
+
+    /// Its corners, to change.
+    #[inline(always)]
+    pub(crate) fn slots(&mut self) -> Slots<'_, C> {
+        Slots {
+            built_in: &mut self.built_in,
+            user: self.user.as_mut_view(),
+        }
+    }
+}
+
+/// The corners of a [`Polygon`] with any N: what works on these is in a program once.
+#[derive(Debug)]
+pub(crate) struct Held<'p, C> {
+    built_in: &'p [C],
+    user: &'p [C],
+}
+
+impl<C> Clone for Held<'_, C> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<C> Copy for Held<'_, C> {}
+
+impl<'p, C> Held<'p, C> {
+    #[inline(always)]
+    pub(crate) fn len(self) -> usize {
+        self.built_in.len() + self.user.len()
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_empty(self) -> bool {
+        self.built_in.is_empty()
+    }
+
+    /// Corner `index`.
+    ///
+    /// A function of its own: where the two parts meet is decided in many places of a small program otherwise.
+    #[inline(never)]
+    pub(crate) fn get(self, index: usize) -> Option<&'p C> {
+        self.built_in
+            .get(index)
+            .or_else(|| self.user.get(index.wrapping_sub(BUILT_IN)))
     }
 
     #[inline]
+    pub(crate) fn iter(self) -> impl Iterator<Item = &'p C> {
+        (0..self.len()).filter_map(move |i| self.get(i))
+    }
+}
+
+/// As [`Held`], to change.
+#[derive(Debug)]
+pub(crate) struct Slots<'p, C> {
+    built_in: &'p mut Vec<C, BUILT_IN>,
+    user: &'p mut VecView<C>,
+}
+
+impl<C: Copy> Slots<'_, C> {
+    #[inline(always)]
+    pub(crate) fn held(&self) -> Held<'_, C> {
+        Held {
+            built_in: self.built_in,
+            user: self.user,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn clear(&mut self) {
+        self.built_in.clear();
+        self.user.clear();
+    }
+
+    /// Calls `change` with all corners in order.
+    #[inline]
+    pub(crate) fn each(&mut self, mut change: impl FnMut(&mut C)) {
+        for i in 0..self.held().len() {
+            if let Some(corner) = self.get_mut(i) {
+                change(corner);
+            }
+        }
+    }
+
+    #[inline(never)]
     fn get_mut(&mut self, index: usize) -> Option<&mut C> {
         match self.built_in.get_mut(index) {
             Some(corner) => Some(corner),
@@ -112,7 +198,7 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
     /// Puts a corner before corner `index`.
     #[inline(never)]
     fn insert(&mut self, index: usize, mut corner: C) {
-        for i in index..self.len() {
+        for i in index..self.held().len() {
             if let Some(there) = self.get_mut(i) {
                 core::mem::swap(there, &mut corner);
             }
@@ -123,13 +209,14 @@ impl<C: Copy, const N: usize> Polygon<C, N> {
     /// Takes `count` corners away, from corner `index` on.
     #[inline(never)]
     fn remove(&mut self, index: usize, count: usize) {
-        let len = self.len().saturating_sub(count);
+        let len = self.held().len().saturating_sub(count);
         for i in index..len {
-            let Some(&next) = self.get(i.wrapping_add(count)) else {
+            let Some(&(mut next)) = self.held().get(i.wrapping_add(count)) else {
                 return;
             };
+            // Exchanged word by word: copied, it would be `memmove`, which nothing else in a program needs.
             if let Some(there) = self.get_mut(i) {
-                *there = next;
+                core::mem::swap(there, black_box(&mut next));
             }
         }
         self.built_in.truncate(len);
@@ -161,7 +248,7 @@ impl<T: Word> ClipCorner<T> {
         let one = T::ONE << (T::BITS - 1);
         let mut left = [one, T::ZERO, T::ZERO];
         vertices.map(|position| {
-            let weights = Block::new(left, 1 - T::BITS as i32);
+            let weights = Block::raw(left, 1 - T::BITS as i32);
             let [a, b, _] = left;
             left = [T::ZERO, a, b];
             ClipCorner { position, weights }
@@ -173,7 +260,7 @@ impl<C: Copy, const N: usize> FromIterator<C> for Polygon<C, N> {
     /// The first 9 + N corners.
     fn from_iter<I: IntoIterator<Item = C>>(corners: I) -> Self {
         let mut polygon = Polygon::default();
-        corners.into_iter().for_each(|corner| polygon.push(corner));
+        corners.into_iter().for_each(|corner| polygon.slots().push(corner));
         polygon
     }
 }
@@ -207,15 +294,14 @@ impl<T: Word, const N: usize> Planes<T, N> {
     /// What is left of a triangle, or of a line if K is 2: the first three vertices count. `None` for nothing.
     pub fn clip<const K: usize>(&self, vertices: [Block<T, 4>; K]) -> Option<Polygon<ClipCorner<T>, N>> {
         let mut polygon = Polygon::of_vertices(vertices);
-        self.cut(&mut polygon);
+        cut_by(self.as_slice(), &mut polygon.slots());
         (!polygon.is_empty()).then_some(polygon)
     }
 
-    /// Leaves of a polygon what they keep.
-    pub(crate) fn cut(&self, polygon: &mut Polygon<ClipCorner<T>, N>) {
-        for plane in &self.0 {
-            cut(polygon, plane.mantissas());
-        }
+    /// All of them.
+    #[inline(always)]
+    pub(crate) fn as_slice(&self) -> &[Block<T, 4>] {
+        &self.0
     }
 
     /// Whether a point is on the kept side of all of them, exactly.
@@ -223,6 +309,13 @@ impl<T: Word, const N: usize> Planes<T, N> {
         self.0
             .iter()
             .all(|plane| distance(plane.mantissas(), point.mantissas()) >= T::Wide::ZERO)
+    }
+}
+
+/// Leaves of a polygon what planes keep.
+pub(crate) fn cut_by<T: Word>(planes: &[Block<T, 4>], polygon: &mut Slots<'_, ClipCorner<T>>) {
+    for plane in planes {
+        cut(polygon, plane.mantissas());
     }
 }
 
@@ -272,9 +365,9 @@ impl<T: Word> ScreenPlanes<T> {
     }
 
     /// Cuts off what lies outside; `None` where all corners lie outside the same plane.
-    fn cut<const N: usize>(&self, polygon: &mut Polygon<ClipCorner<T>, N>) -> Option<()> {
+    fn cut(&self, polygon: &mut Slots<'_, ClipCorner<T>>) -> Option<()> {
         let (mut all, mut any) = (u8::MAX, 0);
-        for corner in polygon.iter() {
+        for corner in polygon.held().iter() {
             let code = self.outcode(corner.position.mantissas());
             (all, any) = (all & code, any | code);
         }
@@ -303,28 +396,32 @@ pub(crate) fn is_in_volume<T: Word>([x, y, z, w]: [T; 4], range: DepthRange) -> 
 
 /// Cuts a polygon in clip space to what lies before the camera, all w > 0: by the near plane, and where that is not enough
 /// (there is none, or it passes behind the camera) by all that [`to_view`] cuts by.
-pub(crate) fn before_camera<T: Word, W: Word, const N: usize>(
-    polygon: &mut Polygon<ClipCorner<T>, N>,
+pub(crate) fn before_camera<T: Word, W: Word>(
+    polygon: &mut Slots<'_, ClipCorner<T>>,
     viewport: &Viewport<W>,
     range: DepthRange,
 ) -> Option<()> {
     let planes = ScreenPlanes::new(viewport, range);
     let outside = |corner: &ClipCorner<T>| planes.outcode(corner.position.mantissas());
-    if polygon.iter().map(outside).fold(u8::MAX, |all, code| all & code) != 0 {
+    if polygon.held().iter().map(outside).fold(u8::MAX, |all, code| all & code) != 0 {
         return None;
     }
     if range != DepthRange::Unlimited {
         cut(polygon, near_plane(range));
     }
-    if polygon.iter().all(is_in_front) {
+    if polygon.held().iter().all(is_in_front) {
         return Some(());
     }
     to_view(polygon, viewport, range, Behind::Cut)
 }
 
 fn is_in_front<T: Word>(corner: &ClipCorner<T>) -> bool {
+    w_of(corner) > T::ZERO
+}
+
+fn w_of<T: Word>(corner: &ClipCorner<T>) -> T {
     let [.., w] = corner.position.mantissas();
-    w > T::ZERO
+    w
 }
 
 /// Whether a corner lies beyond the far plane.
@@ -339,33 +436,32 @@ pub(crate) fn at_far<T: Word>(inner: &ClipCorner<T>, outer: &ClipCorner<T>) -> C
 
 /// Cuts a polygon in clip space to the depth range and the guard band; every corner that is left has w > 0. `None` for
 /// nothing left, and where a corner has w = 0 and `behind` would divide by it.
-pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
-    polygon: &mut Polygon<ClipCorner<T>, N>,
+pub(crate) fn to_view<T: Word, W: Word>(
+    polygon: &mut Slots<'_, ClipCorner<T>>,
     viewport: &Viewport<W>,
     range: DepthRange,
     behind: Behind,
 ) -> Option<()> {
     let in_volume = |corner: &ClipCorner<T>| is_in_volume(corner.position.mantissas(), range);
-    if viewport.is_in_guard() && polygon.iter().all(in_volume) {
-        return (!polygon.is_empty()).then_some(());
+    if viewport.is_in_guard() && polygon.held().iter().all(in_volume) {
+        return (!polygon.held().is_empty()).then_some(());
     }
     if behind == Behind::Divide {
-        for corner in polygon.iter_mut() {
-            let [.., w] = corner.position.mantissas();
-            if w == T::ZERO {
-                return None;
-            }
-            if w < T::ZERO {
+        if polygon.held().iter().any(|corner| w_of(corner) == T::ZERO) {
+            return None;
+        }
+        polygon.each(|corner| {
+            if w_of(corner) < T::ZERO {
                 // The same point on the screen; the weights keep the sign for what is divided by w.
                 *corner = ClipCorner {
                     position: corner.position.negated(),
                     weights: corner.weights.negated(),
                 };
             }
-        }
+        });
     }
     ScreenPlanes::new(viewport, range).cut(polygon)?;
-    (!polygon.is_empty() && polygon.iter().all(is_in_front)).then_some(())
+    (!polygon.held().is_empty() && polygon.held().iter().all(is_in_front)).then_some(())
 }
 
 /// Keeps the part of a convex polygon whose distance is at least 0; none of it where no corner's is. Two corners are a
@@ -377,11 +473,11 @@ pub(crate) fn to_view<T: Word, W: Word, const N: usize>(
 /// One function for all planes, which are data: inlined for each, cutting is most of a small program's code. In place: a
 /// second polygon is more stack than all else that clipping needs.
 #[inline(never)]
-pub(crate) fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, N>, plane: [T; 4]) {
+pub(crate) fn cut<T: Word>(polygon: &mut Slots<'_, ClipCorner<T>>, plane: [T; 4]) {
     let of = |corner: &ClipCorner<T>| distance(plane, corner.position.mantissas());
     // Mantissas are normalised per corner, so that distances compare as angles do.
     let (mut outermost, mut least) = (0, T::Wide::ZERO);
-    for (i, corner) in polygon.iter().enumerate() {
+    for (i, corner) in polygon.held().iter().enumerate() {
         let distance = of(corner);
         if distance < least {
             (outermost, least) = (i, distance);
@@ -391,11 +487,12 @@ pub(crate) fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, 
         return;
     }
     // Counted from the outermost on, the corners that stay are those from the first to the last inside.
-    let count = polygon.len();
+    let count = polygon.held().len();
     let after = |i: usize| if i < count { i } else { i - count };
     let (mut first, mut last) = (count, 0);
     for i in 1..count {
         if polygon
+            .held()
             .get(after(outermost + i))
             .is_some_and(|c| of(c) >= T::Wide::ZERO)
         {
@@ -403,12 +500,13 @@ pub(crate) fn cut<T: Word, const N: usize>(polygon: &mut Polygon<ClipCorner<T>, 
         }
     }
     if first > last {
-        *polygon = Polygon::default();
+        polygon.clear();
         return;
     }
     // The corners that stay run from `enter` to `leave`.
     let (enter, leave) = (after(outermost + first), after(outermost + last));
-    let edge = |inner: usize, outer: usize| Some(crossing(polygon.get(inner)?, polygon.get(outer)?, plane));
+    let edge =
+        |inner: usize, outer: usize| Some(crossing(polygon.held().get(inner)?, polygon.held().get(outer)?, plane));
     let edges = (edge(enter, after(outermost + first - 1)), edge(leave, after(leave + 1)));
     let (Some(entering), Some(leaving)) = edges else {
         return;

@@ -135,24 +135,48 @@ pub trait Depth {
         Some((cells, fine))
     }
 
-    /// Takes the cells of `pixels` off `cells`, and calls `draw` with every pixel and whether its fragment passes, from depth
-    /// `fine` on in units of 2^-15 step, `step` from pixel to pixel; the depth after them.
+    /// Calls `draw` with `pixels` from the first on, up to the first whose fragment does not pass; how many are left then. Depths
+    /// as in [`pass`](Self::pass).
     #[inline(always)]
-    fn pass<'a, P>(
-        cells: &mut Self::Cells<'a>,
+    fn pass_first<'a, P>(
+        cells: Self::Cells<'a>,
         pixels: &mut [P],
         mut fine: u32,
         step: u32,
-        mut draw: impl FnMut(&mut P, bool),
-    ) -> u32
+        mut draw: impl FnMut(&mut P),
+    ) -> usize
     where
         Self: 'a,
     {
-        for (pixel, cell) in pixels.iter_mut().zip(cells) {
-            draw(pixel, Self::test(cell, fine >> 15));
+        let mut fragments = pixels.iter_mut().zip(cells);
+        while let Some((pixel, cell)) = fragments.next() {
+            if !Self::test(cell, fine >> 15) {
+                return fragments.size_hint().0.wrapping_add(1);
+            }
+            draw(pixel);
             fine = fine.wrapping_add(step);
         }
-        fine
+        0
+    }
+
+    /// How many fragments pass at the front of `cells`, up to the first that does not, whose depths are stored: from `fine` on in
+    /// units of 2^-15 step, `step` from cell to cell. With it the cells that are left to be looked at, from that first or the one
+    /// behind it on, and the depth of the first of them.
+    #[inline(always)]
+    fn pass<'a>(mut cells: Self::Cells<'a>, mut fine: u32, step: u32) -> (usize, Self::Cells<'a>, u32)
+    where
+        Self: 'a,
+    {
+        let mut passed = 0;
+        for cell in &mut cells {
+            let passes = Self::test(cell, fine >> 15);
+            fine = fine.wrapping_add(step);
+            if !passes {
+                break;
+            }
+            passed += 1;
+        }
+        (passed, cells, fine)
     }
 
     /// Whether a fragment beyond the far end of the range, where nothing is cut off there, can pass at all. It then comes
@@ -272,28 +296,40 @@ impl<D: Target<Pixel = u16>, C: Comparison> Depth for DepthBuffer<D, C> {
         skip(cells, fine, step, C::passes)
     }
     #[inline(always)]
-    fn pass<'a, P>(
-        cells: &mut Self::Cells<'a>,
+    fn pass_first<'a, P>(
+        cells: Self::Cells<'a>,
         pixels: &mut [P],
         mut fine: u32,
         step: u32,
-        mut draw: impl FnMut(&mut P, bool),
-    ) -> u32
+        mut draw: impl FnMut(&mut P),
+    ) -> usize
     where
         Self: 'a,
     {
-        // Cut off as a slice, so that the loop has one end to look at.
-        let all = mem::take(cells).into_slice();
-        if let Some((first, rest)) = all.split_at_mut_checked(pixels.len()) {
-            *cells = rest.iter_mut();
-            for (pixel, cell) in pixels.iter_mut().zip(first) {
-                // Not unrolled: few pixels at a time, and the state of several would not fit the registers.
-                black_box(());
-                draw(pixel, Self::test(cell, fine >> 15));
-                fine = fine.wrapping_add(step);
+        let cells = cells.into_slice();
+        // Slices of one length, which is the only number that is counted.
+        let count = pixels.len().min(cells.len());
+        let (Some(mut pixels), Some(mut cells)) = (pixels.get_mut(..count), cells.get_mut(..count)) else {
+            return 0;
+        };
+        while let ([pixel, other_pixels @ ..], [cell, others @ ..]) = (pixels, cells) {
+            // Not unrolled: the state of several would not fit the registers.
+            black_box(());
+            if !Self::test(cell, fine >> 15) {
+                return others.len().wrapping_add(1);
             }
+            draw(pixel);
+            fine = fine.wrapping_add(step);
+            (pixels, cells) = (other_pixels, others);
         }
-        fine
+        0
+    }
+    #[inline(always)]
+    fn pass<'a>(cells: IterMut<'a, u16>, fine: u32, step: u32) -> (usize, IterMut<'a, u16>, u32)
+    where
+        Self: 'a,
+    {
+        pass(cells, fine, step, C::passes, C::STORES)
     }
     #[inline(always)]
     fn takes_beyond(&self) -> bool {
@@ -331,7 +367,7 @@ fn some(block: &mut [u16], start: usize, count: usize) -> &mut [u16] {
         .unwrap_or_default()
 }
 
-/// As [`Depth::skip`]: on cells that are only looked at, whose address need not be kept, six instructions each on Cortex-M4.
+/// As [`Depth::skip`], six instructions a cell on Cortex-M4.
 #[inline(always)]
 fn skip(
     cells: IterMut<'_, u16>,
@@ -339,18 +375,40 @@ fn skip(
     step: u32,
     passes: impl Fn(u32, u32) -> bool,
 ) -> Option<(IterMut<'_, u16>, u32)> {
-    let all = cells.into_slice();
-    let mut others = all.iter();
-    loop {
+    let mut cells = cells.into_slice();
+    while !passes(fine >> 15, *cells.first()? as u32) {
         // Rolled: the state of four would not fit the registers.
         black_box(());
-        if passes(fine >> 15, *others.next()? as u32) {
-            break;
-        }
+        cells = cells.split_first_mut()?.1;
         fine = fine.wrapping_add(step);
     }
-    let hidden = all.len().wrapping_sub(others.len()).wrapping_sub(1);
-    Some((all.get_mut(hidden..)?.iter_mut(), fine))
+    Some((cells.iter_mut(), fine))
+}
+
+/// As [`Depth::pass`]: on Cortex-M4 eight instructions a cell.
+#[inline(always)]
+fn pass(
+    cells: IterMut<'_, u16>,
+    mut fine: u32,
+    step: u32,
+    passes: impl Fn(u32, u32) -> bool,
+    stores: bool,
+) -> (usize, IterMut<'_, u16>, u32) {
+    let mut others = cells.into_slice();
+    let count = others.len();
+    while let [cell, ..] = others {
+        // Rolled: unrolled, a compiler keeps several depths at a time.
+        black_box(());
+        if !passes(fine >> 15, *cell as u32) {
+            break;
+        }
+        if stores {
+            *cell = (fine >> 15) as u16;
+        }
+        fine = fine.wrapping_add(step);
+        others = mem::take(&mut others).get_mut(1..).unwrap_or_default();
+    }
+    (count.wrapping_sub(others.len()), others.iter_mut(), fine)
 }
 
 /// As a [`DepthBuffer`], but what is done is chosen when drawing: for programs that draw both ways.
@@ -521,6 +579,24 @@ impl<D: Target<Pixel = u16>> Depth for Switched<D> {
     {
         let (cells, fine) = skip(cells, fine, step, |new, old| options.passes.passes(new, old))?;
         Some((SwitchedCells { cells, options }, fine))
+    }
+    #[inline(always)]
+    fn pass<'a>(
+        SwitchedCells { cells, options }: SwitchedCells<'a>,
+        fine: u32,
+        step: u32,
+    ) -> (usize, SwitchedCells<'a>, u32)
+    where
+        Self: 'a,
+    {
+        let (passed, cells, fine) = pass(
+            cells,
+            fine,
+            step,
+            |new, old| options.passes.passes(new, old),
+            options.stores,
+        );
+        (passed, SwitchedCells { cells, options }, fine)
     }
     #[inline(always)]
     fn takes_beyond(&self) -> bool {

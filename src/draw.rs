@@ -2,20 +2,22 @@
 
 use core::borrow::Borrow;
 use core::hint::black_box;
+use core::mem;
 
 use crate::barycentric;
 use crate::depth::Depth;
 use crate::fragment::Fragment;
-use crate::gradient::{Basis, Plane, Ramp};
+use crate::gradient::{Basis, Place, Plane, Ramp};
 use crate::line::Line;
 use crate::num::Word;
 use crate::screen::{Corner, Shape};
 use crate::slope::{Slope, Slopes, Weights};
 use crate::small;
-use crate::span::{BLOCK, Scan, Span, Spans, TriangleRows, doubled_area};
+use crate::span::{BLOCK, Corners, Scan, Span, Spans, TriangleRows, doubled_area};
 use crate::target::Target;
 use crate::varying::Varying;
-use crate::view::{Carried, Vertex, View};
+use crate::view::{Carried, Shown, Vertex, View};
+use crate::window::Window;
 
 mod indexed;
 mod segment;
@@ -49,7 +51,7 @@ where
     let corners = corners.borrow();
     if !small_polygon(color, depth, corners, fragment) {
         // In the caller, where its window may be a constant: 9 % fewer instructions on Cortex-M4 (W2 of `cargo xtask measure`).
-        large::<i32, _, _, _, _>(color, depth, corners, doubled_area(corners), fragment);
+        large::<i32, _, _, _, _>(color, depth, corners, corners, doubled_area(corners), fragment);
     }
 }
 
@@ -70,8 +72,23 @@ pub fn primitive<T, W, C, D, F, const N: usize>(
     F: Fragment<Pixel = C::Pixel, Varying: Carried>,
 {
     view.project::<F::Varying>(vertices, |shape| {
-        self::shape::<W, _, _, _, _>(color, depth, shape, fragment);
+        projected::<W, _, _, _, _>(color, depth, &shape.shown(), fragment);
     });
+}
+
+/// As [`shape`], of what a view has left.
+#[inline(never)]
+fn projected<W, C, D, V, F>(color: &mut C, depth: &mut D, shown: &Shown<'_, V>, fragment: &F)
+where
+    W: Word,
+    C: Target,
+    D: Depth,
+    V: Carried,
+    F: Fragment<Pixel = C::Pixel, Varying = V>,
+{
+    if !small_polygon(color, depth, shown, fragment) {
+        any_size::<W, _, _, _, _>(color, depth, shown, &shown.corners, shown.corners.area(), fragment);
+    }
 }
 
 /// Draws the line from one pixel to another, the last left out; see [`line`](mod@crate::line).
@@ -112,7 +129,7 @@ where
     F: Fragment<Pixel = C::Pixel>,
 {
     if !small_polygon(color, depth, shape, fragment) {
-        any_size::<W, _, _, _, _>(color, depth, shape, area, fragment);
+        any_size::<W, _, _, _, _>(color, depth, shape, shape, area, fragment);
     }
 }
 
@@ -127,7 +144,7 @@ where
     F: Fragment<Pixel = C::Pixel>,
 {
     if !small_polygon(color, depth, shape, fragment) {
-        any_size::<W, _, _, _, _>(color, depth, shape, doubled_area(shape), fragment);
+        any_size::<W, _, _, _, _>(color, depth, shape, shape, doubled_area(shape), fragment);
     }
 }
 
@@ -143,11 +160,11 @@ where
     shape.count() == 3 && small::triangle(color, depth, shape, fragment)
 }
 
-/// As [`polygon`], by the walk that draws all there is.
+/// As [`polygon`], by the walk that draws all there is; `outline` has the corners of `shape`, alone.
 ///
 /// A function of its own, whose stack and registers small triangles do not pay for.
 #[inline(never)]
-fn any_size<W, C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, area: i64, fragment: &F)
+fn any_size<W, C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, outline: &impl Corners, area: i64, fragment: &F)
 where
     W: Word,
     C: Target,
@@ -155,11 +172,11 @@ where
     S: Shape<Varying = F::Varying>,
     F: Fragment<Pixel = C::Pixel>,
 {
-    large::<W, _, _, _, _>(color, depth, shape, area, fragment);
+    large::<W, _, _, _, _>(color, depth, shape, outline, area, fragment);
 }
 
 #[inline(always)]
-fn large<W, C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, area: i64, fragment: &F)
+fn large<W, C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, outline: &impl Corners, area: i64, fragment: &F)
 where
     W: Word,
     C: Target,
@@ -172,7 +189,8 @@ where
             rows_of_triangle::<W, _, _, _, _>(color, depth, shape, area > 0, fragment);
         }
     } else {
-        paint(color, depth, shape, &Scan::<W, _>::new(shape, area > 0), fragment);
+        let spans = Scan::<W, _>::new(outline, area > 0);
+        paint(color, depth, shape, &Basis::new(outline), &spans, fragment);
     }
 }
 
@@ -216,10 +234,20 @@ where
                     *inside = new;
                 }
             }
-            for (row, &columns) in (row..).zip(&*columns) {
-                let span = Span::new(row, columns, &window);
-                if span.left < span.right {
-                    inside.span(&weights, color, depth, &span, fragment);
+            if !<F::Varying as Varying>::Slopes::DRAWS
+                || !inside.draw_rows(color, depth, row, columns, &window, fragment)
+            {
+                for (row, columns) in (row..).zip(&*columns) {
+                    let span = Span::new(row, *columns, &window);
+                    if span.left < span.right {
+                        let left_over = inside.span(&weights, color, depth, &span, fragment);
+                        if left_over > 0 {
+                            // Looked up once more: kept, it would take registers.
+                            let mut span = Span::new(row, *columns, &window);
+                            span.left = span.right.wrapping_sub(left_over as i32);
+                            inside.shade_others(color, depth, &span, &weights, fragment);
+                        }
+                    }
                 }
             }
             let (Some(rest), Some(columns)) = (rest, columns.first_mut()) else {
@@ -254,9 +282,9 @@ impl<V: Varying> Inside<V> {
     }
 
     /// One span: what is hidden at its start costs the comparison and one addition for each pixel, and nothing else is looked
-    /// at before the first visible one.
+    /// at before the first visible one. How many pixels are left where one behind a visible one is hidden.
     #[inline(always)]
-    fn span<C, D, F>(&self, weights: &Weights, color: &mut C, depth: &mut D, span: &Span, fragment: &F)
+    fn span<C, D, F>(&self, weights: &Weights, color: &mut C, depth: &mut D, span: &Span, fragment: &F) -> usize
     where
         C: Target,
         D: Depth,
@@ -266,37 +294,120 @@ impl<V: Varying> Inside<V> {
         if V::Slopes::DRAWS || !D::ENABLED {
             let pixels = color.span(row, left, right);
             if pixels.is_empty() || !D::ENABLED && fragment.fill(pixels) {
-                return;
+                return 0;
             }
-            if V::Slopes::DRAWS {
-                let (cells, ramp) = (depth.cells(span), self.depth.ramp((left, row)));
-                self.slopes.draw::<D, F>(weights, span, pixels, cells, ramp, fragment);
-            } else {
+            if !V::Slopes::DRAWS {
                 self.shade(pixels, weights.place(left, row), fragment);
+            } else if D::ENABLED {
+                self.draw_visible::<D, F>(span, pixels, depth.cells(span), fragment);
+            } else {
+                self.slopes.draw(span, pixels, fragment);
             }
-            return;
+            return 0;
         }
         let Ramp { value, step } = self.depth.ramp((left, row));
         let Some((cells, fine)) = D::skip(depth.cells(span), value as u32, step as u32) else {
-            return;
+            return 0;
         };
         let column = right.wrapping_sub(cells.size_hint().0 as i32);
         let pixels = color.span(row, column, right);
-        if pixels.is_empty() {
-            return;
+        self.shade_visible::<D, F>(pixels, cells, fine, weights.place(column, row), fragment)
+    }
+
+    /// Spans of `columns` from row `top` on; whether the targets have blocks.
+    #[inline(never)]
+    fn draw_rows<C, D, F>(
+        &self,
+        color: &mut C,
+        depth: &mut D,
+        top: i32,
+        columns: &[(i32, i32)],
+        window: &Window,
+        fragment: &F,
+    ) -> bool
+    where
+        C: Target,
+        D: Depth,
+        F: Fragment<Pixel = C::Pixel, Varying = V>,
+    {
+        let part = Window {
+            top,
+            bottom: top.wrapping_add(columns.len() as i32),
+            ..*window
+        };
+        let Some((block, stride)) = color.block(&part) else {
+            return false;
+        };
+        let Some(mut cells) = depth.block(&part, stride, block.len()) else {
+            return false;
+        };
+        let mut start = 0usize;
+        for (row, &columns) in (top..).zip(columns) {
+            let span = Span::new(row, columns, window);
+            if span.left < span.right {
+                let first = start.wrapping_add(span.left.wrapping_sub(window.left) as u32 as usize);
+                let count = span.right.wrapping_sub(span.left) as u32 as usize;
+                if let Some(pixels) = block.get_mut(first..).and_then(|rest| rest.get_mut(..count)) {
+                    self.draw_runs::<D, F>(&span, pixels, D::block_cells(&mut cells, first, count), fragment);
+                }
+            }
+            start = start.wrapping_add(stride);
         }
-        let shaded = self.shade_visible::<D, F>(pixels, cells, fine, weights.place(column, row), fragment);
-        let others = column.wrapping_add(shaded);
-        if others < right {
-            self.shade_others(color, depth, &Span { left: others, ..*span }, weights, fragment);
+        true
+    }
+
+    /// As [`draw_runs`](Self::draw_runs), in a function of its own for targets without blocks.
+    #[cold]
+    #[inline(never)]
+    fn draw_visible<D, F>(&self, span: &Span, pixels: &mut [F::Pixel], cells: D::Cells<'_>, fragment: &F)
+    where
+        D: Depth,
+        F: Fragment<Varying = V>,
+    {
+        self.draw_runs::<D, F>(span, pixels, cells, fragment);
+    }
+
+    /// The visible runs of a span, each after its depths.
+    #[inline(always)]
+    fn draw_runs<D, F>(&self, span: &Span, pixels: &mut [F::Pixel], mut cells: D::Cells<'_>, fragment: &F)
+    where
+        D: Depth,
+        F: Fragment<Varying = V>,
+    {
+        let Ramp { value, step } = self.depth.ramp((span.left, span.row));
+        let (mut fine, step) = (value as u32, step as u32);
+        let mut run = *span;
+        let mut rest = pixels;
+        loop {
+            let (passed, others, next) = D::pass(cells, fine, step);
+            let Some((visible, hidden)) = mem::take(&mut rest).split_at_mut_checked(passed) else {
+                return;
+            };
+            self.slopes.draw(&run, visible, fragment);
+            if hidden.is_empty() {
+                return;
+            }
+            let Some((others, next)) = D::skip(others, next, step) else {
+                return;
+            };
+            let skipped = hidden.len().wrapping_sub(others.size_hint().0);
+            run.left = run.left.wrapping_add(passed.wrapping_add(skipped) as i32);
+            rest = hidden.get_mut(skipped..).unwrap_or_default();
+            (cells, fine) = (others, next);
         }
     }
 
     /// What is left of a span where something hides a pixel behind a visible one: pixel by pixel.
     #[cold]
     #[inline(never)]
-    fn shade_others<C, D, F>(&self, color: &mut C, depth: &mut D, span: &Span, weights: &Weights, fragment: &F)
-    where
+    pub(crate) fn shade_others<C, D, F>(
+        &self,
+        color: &mut C,
+        depth: &mut D,
+        span: &Span,
+        weights: &Weights,
+        fragment: &F,
+    ) where
         C: Target,
         D: Depth,
         F: Fragment<Pixel = C::Pixel, Varying = V>,
@@ -328,38 +439,29 @@ impl<V: Varying> Inside<V> {
         }
     }
 
-    /// `pixels` from the first on, at depth `fine`, up to the first that is hidden, which `cells` tell; how many.
+    /// `pixels` from the first on, at depth `fine`, up to the first that is hidden, which `cells` tell; how many are left then.
     ///
     /// A function of its own: inlined, the rows' state takes its registers. On Cortex-M4 an RGB565 pixel of interpolated colour
-    /// costs 16 instructions here (`cargo xtask measure`); 15 by hand.
+    /// costs 15 instructions here (`cargo xtask measure`), as by hand, on ARMv6-M, which keeps five of its words in memory, 27.
     #[inline(never)]
     fn shade_visible<D, F>(
         &self,
         pixels: &mut [F::Pixel],
         cells: D::Cells<'_>,
-        mut fine: u32,
+        fine: u32,
         place: (i32, i32),
         fragment: &F,
-    ) -> i32
+    ) -> usize
     where
         D: Depth,
         F: Fragment<Varying = V>,
     {
         let mut ramps = self.slopes.ramps(place);
-        let step = self.depth.x as u32;
-        let mut shaded = 0;
-        for (pixel, cell) in pixels.iter_mut().zip(cells) {
-            black_box(());
-            // With the half all values lie in 0…65536 steps, so that the sum fits 32 bits.
-            if !D::test(cell, fine >> 15) {
-                break;
-            }
+        // With the half all values lie in 0…65536 steps, so that the sum fits 32 bits.
+        D::pass_first(cells, pixels, fine, self.depth.x as u32, |pixel| {
             self.shade_one(pixel, &ramps, fragment);
             V::advance(&mut ramps);
-            fine = fine.wrapping_add(step);
-            shaded += 1;
-        }
-        shaded
+        })
     }
 
     #[inline(always)]
@@ -372,22 +474,23 @@ impl<V: Varying> Inside<V> {
 
 /// Draws what `spans` cover, with the values of `shape`, however large or thin or whatever lies outside of its corners.
 #[inline(never)]
-fn paint<C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, spans: &impl Spans, fragment: &F)
+fn paint<C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, basis: &Option<Basis>, spans: &impl Spans, fragment: &F)
 where
     C: Target,
     D: Depth,
     S: Shape<Varying = F::Varying>,
     F: Fragment<Pixel = C::Pixel>,
 {
-    let Some(basis) = Basis::new(shape) else {
+    let Some(basis) = basis else {
         return;
     };
     let depth_plane = if D::ENABLED {
-        depth_plane(&basis, shape)
+        depth_plane(basis, shape)
     } else {
         Plane::default()
     };
-    let planes = F::Varying::planes(&basis, shape.count(), |i| shape.varying(i));
+    let mut planes = F::Varying::NO_PLANES;
+    F::Varying::lay(&mut planes, basis, shape.count(), |i| shape.varying(i));
     spans.each(depth.limit(color.window()), |span| {
         let pixels = color.span(span.row, span.left, span.right);
         if pixels.is_empty() || !D::ENABLED && fragment.fill(pixels) {
@@ -399,11 +502,12 @@ where
         } else {
             Ramp::default()
         };
-        let ramps = F::Varying::ramps(&planes, &place);
-        let values = |ramps: &<F::Varying as Varying>::Ramps| F::Varying::values(&planes, ramps);
-        shade::<D, F>(pixels, depth.cells(&span), ramp, ramps, values, fragment);
+        shade::<D, F>(pixels, depth.cells(&span), ramp, &planes, &place, fragment);
     });
 }
+
+/// Bytes of ramps that registers, or little more, can hold.
+const MOST_RAMPS: usize = 64;
 
 /// One span, by runs: pixels behind what is there cost the comparison and one addition, and the varyings are looked at
 /// only where a run of visible ones begins.
@@ -414,10 +518,16 @@ fn shade<D: Depth, F: Fragment>(
     pixels: &mut [F::Pixel],
     cells: D::Cells<'_>,
     depth: Ramp<i32>,
-    start: <F::Varying as Varying>::Ramps,
-    values: impl Fn(&<F::Varying as Varying>::Ramps) -> <F::Varying as Varying>::Values,
+    planes: &<F::Varying as Varying>::Planes,
+    place: &Place,
     fragment: &F,
 ) {
+    let mut ramps = F::Varying::ramps(planes, place);
+    let (mut ramps, mut planes) = (&mut ramps, planes);
+    if size_of_val(ramps) > MOST_RAMPS {
+        // Left where they are: taken apart, they would be on the stack a second time, number by number.
+        (ramps, planes) = (black_box(ramps), black_box(planes));
+    }
     // With the half that rounds to the nearest step. All values lie in 0…65535 steps, so that the sum fits 32 bits.
     let mut fine = (depth.value as u32).wrapping_add(1 << 14);
     let step = depth.step as u32;
@@ -426,7 +536,7 @@ fn shade<D: Depth, F: Fragment>(
         // Nothing to look at where a run begins.
         for (pixel, cell) in fragments {
             if D::test(cell, fine >> 15)
-                && let Some(new) = fragment.shade(values(&start), *pixel)
+                && let Some(new) = fragment.shade(F::Varying::values(planes, ramps), *pixel)
             {
                 *pixel = new;
             }
@@ -434,21 +544,24 @@ fn shade<D: Depth, F: Fragment>(
         }
         return;
     }
-    let count = fragments.size_hint().0;
+    // Pixels that are left where the ramps are.
+    let mut left = fragments.size_hint().0;
     while let Some((mut pixel, cell)) = fragments.next() {
         if D::test(cell, fine >> 15) {
-            let column = count - fragments.size_hint().0 - 1;
-            let mut ramps = F::Varying::after(&start, column as i32);
+            let skipped = left.wrapping_sub(fragments.size_hint().0).wrapping_sub(1);
+            F::Varying::advance_by(ramps, skipped as i32);
             loop {
                 fine = fine.wrapping_add(step);
-                if let Some(new) = fragment.shade(values(&ramps), *pixel) {
+                if let Some(new) = fragment.shade(F::Varying::values(planes, ramps), *pixel) {
                     *pixel = new;
                 }
-                F::Varying::advance(&mut ramps);
+                F::Varying::advance(ramps);
                 let Some((next, cell)) = fragments.next() else {
                     return;
                 };
                 if !D::test(cell, fine >> 15) {
+                    // This one is passed as well, and the ramps are at it.
+                    left = fragments.size_hint().0.wrapping_add(1);
                     break;
                 }
                 pixel = next;
@@ -459,10 +572,11 @@ fn shade<D: Depth, F: Fragment>(
 }
 
 fn depth_plane(basis: &Basis, shape: &impl Shape) -> Plane {
-    let (mut least, mut most) = (i32::MAX, i32::MIN);
+    let mut plane = Plane::NONE;
+    plane.empty();
     for i in 0..shape.count() {
-        let d = shape.depth(i);
-        (least, most) = (least.min(d), most.max(d));
+        plane.hold(basis.place_of(i), shape.depth(i));
     }
-    basis.plane(basis.corners().map(|i| shape.depth(i)), (least, most))
+    plane.settle(basis);
+    plane
 }

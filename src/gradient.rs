@@ -51,7 +51,7 @@ pub struct Basis {
 
 impl Basis {
     /// `None` for a polygon without area.
-    #[inline]
+    #[inline(never)]
     pub fn new(corners: &impl Corners) -> Option<Self> {
         let origin = corners.position(0);
         let from_origin = |i| {
@@ -116,9 +116,15 @@ impl Basis {
         self.corners
     }
 
+    /// Which of the three [`corners`](Self::corners) it is.
+    #[inline(always)]
+    pub(crate) fn place_of(&self, index: usize) -> Option<usize> {
+        self.corners.iter().position(|&corner| corner == index)
+    }
+
     /// The plane through `values` at the three [`corners`](Self::corners); `range` holds the least and the largest value
     /// of all corners of the polygon. |values| ≤ 2^30, or all in 0…2^31−1.
-    #[inline(never)]
+    #[inline]
     pub fn plane(&self, values: [i32; 3], range: (i32, i32)) -> Plane {
         let [origin, a, b] = values.map(i64::from);
         let (da, db) = (a - origin, b - origin);
@@ -221,23 +227,23 @@ pub struct Plane {
     exact: bool,
 }
 
-/// A plane set up in place: all corners by [`widen`](Self::widen), those of the basis by [`hold`](Self::hold), then
-/// [`settle`](Self::settle). What is held lies where the plane's numbers come to lie.
+/// A plane set up in place: [emptied](Self::empty), all corners [held](Self::hold), then [settled](Self::settle). What is held
+/// of the basis lies where the plane's numbers come to lie.
 impl Plane {
-    /// Of no corners.
-    pub(crate) const EMPTY: Self = Plane {
+    /// Not set up: all 0.
+    pub(crate) const NONE: Self = Plane {
         value: 0,
         x: 0,
         y: 0,
         narrow_step: 0,
-        range: (i32::MAX, i32::MIN),
+        range: (0, 0),
         exact: false,
     };
 
-    /// Some corner has this value.
+    /// Of no corners.
     #[inline(always)]
-    pub(crate) fn widen(&mut self, value: i32) {
-        self.range = (self.range.0.min(value), self.range.1.max(value));
+    pub(crate) fn empty(&mut self) {
+        self.range = (i32::MAX, i32::MIN);
     }
 
     /// Least and largest.
@@ -246,13 +252,15 @@ impl Plane {
         self.range
     }
 
-    /// The corner at `place` of the three of the basis has this value.
+    /// A corner has this value: one of the three of the basis, which [`Basis::place_of`] tells, or another.
     #[inline(always)]
-    pub(crate) fn hold(&mut self, place: usize, value: i32) {
+    pub(crate) fn hold(&mut self, place: Option<usize>, value: i32) {
+        self.range = (self.range.0.min(value), self.range.1.max(value));
         match place {
-            0 => self.value = value as i64,
-            1 => self.x = value as i64,
-            _ => self.y = value as i64,
+            Some(0) => self.value = value as i64,
+            Some(1) => self.x = value as i64,
+            Some(_) => self.y = value as i64,
+            None => {}
         }
     }
 
@@ -310,7 +318,7 @@ impl Ramp<i64> {
 
 impl Plane {
     /// At the first column of a span, in units of the corners' values: 32-bit stepping.
-    #[inline(always)]
+    #[inline(never)]
     pub fn ramp(&self, place: &Place) -> Ramp<i32> {
         let (least, most) = self.range;
         let start = saturated(self.at(place) >> EXTRA_BITS);
@@ -330,7 +338,7 @@ impl Plane {
     }
 
     /// At the first column of a span, in units of 2^-14 of the corners' values: 64-bit stepping.
-    #[inline(always)]
+    #[inline(never)]
     pub fn fine_ramp(&self, place: &Place) -> Ramp<i64> {
         let (least, most) = ((self.range.0 as i64) << EXTRA_BITS, (self.range.1 as i64) << EXTRA_BITS);
         let mut step = if self.exact { place.basis.step(self.x) } else { self.x };

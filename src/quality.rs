@@ -70,8 +70,8 @@ pub trait Quality {
     type Trigonometry: num::Trigonometry;
 }
 
-/// As cheap as it gets without showing: values in perspective within an eighth of a texel by subspans, colours two channels a
-/// word, lights from [`Table`], sines from [`ShortSine`].
+/// As cheap as it gets without showing: values in perspective by a reciprocal from a table of 1024, or linear where that is within an
+/// eighth of a texel, colours two channels a word, lights from [`Table`], sines from [`ShortSine`].
 ///
 /// For cores that neither divide nor multiply long (ARMv6-M). [`Linear32`](varying::Linear32), affine, is cheaper still, and
 /// bends the texture of a large triangle.
@@ -88,7 +88,7 @@ pub enum Balanced {}
 #[derive(Debug, Clone, Copy)]
 pub enum Exact {}
 
-/// The bound of [`PerspectiveSpans`] in units of 2^-8 texel. Coarser ones are hardly cheaper (`docs/trade.md`).
+/// The bound of [`PerspectiveSpans`] in units of 2^-8 texel.
 const AN_EIGHTH: u32 = 32;
 
 impl Quality for Fast {

@@ -15,11 +15,10 @@
 
 use core::convert::Infallible;
 
-use crate::depth::Depth;
 use crate::edge::{SUBPIXEL_BITS, SUBPIXELS};
 use crate::fragment::Fragment;
 use crate::gradient::Ramp;
-use crate::num::{high, high_sum, near_reciprocal, product, sum_of_parts};
+use crate::num::{high, high_sum, near_reciprocal, product, short_sum, sum_of_parts};
 use crate::span::Span;
 use crate::varying::Varying;
 
@@ -27,6 +26,9 @@ use crate::varying::Varying;
 const REACH: u32 = 1024;
 /// The thinnest triangle: 1/32 px high, of a few columns.
 const MOST_UP: u32 = 7;
+
+/// `up` of all small triangles: below 16 columns and rows, they have no more than 1024 >> 5 of both.
+pub(crate) const SMALL_UP: u32 = 5;
 
 /// What a triangle's pixels add to the weights of its second and third corner; see the [module](self).
 #[derive(Debug, Clone, Copy, Default)]
@@ -158,6 +160,44 @@ impl Weights {
         }
     }
 
+    /// Of a small triangle, whose [`SMALL_UP`] is known beforehand.
+    #[inline(always)]
+    pub(crate) fn of_small(pixel: (i32, i32), anchor: (i32, i32), x: (i32, i32), y: (i32, i32)) -> Self {
+        Weights {
+            pixel,
+            anchor,
+            x,
+            y,
+            up: SMALL_UP,
+            anchor_up: SMALL_UP,
+        }
+    }
+
+    /// As [`slope`](Self::slope), of a small triangle.
+    #[inline(always)]
+    pub(crate) fn small_slope(&self, [a, b, c]: [i32; 3]) -> Slope {
+        let values = (b.wrapping_sub(a), c.wrapping_sub(a));
+        let dot = |weights| high_sum(values, weights) << SMALL_UP;
+        self.at_origin(Slope {
+            value: a.wrapping_sub(dot(self.anchor)),
+            x: dot(self.x),
+            y: dot(self.y),
+        })
+    }
+
+    /// As [`anchored`](Self::anchored), of a small triangle, in 2^[`SMALL_UP`] units of `values` whose differences, below
+    /// 2^(14 + `CUT`), are cut to 2^`CUT` units: products of 32 bits.
+    #[inline(always)]
+    pub(crate) fn short<const CUT: u32>(&self, [a, b, c]: [i32; 3]) -> Slope {
+        let values = (b.wrapping_sub(a) >> CUT, c.wrapping_sub(a) >> CUT);
+        let dot = |weights| short_sum::<CUT>(values, weights);
+        Slope {
+            value: (a >> SMALL_UP).wrapping_sub(dot(self.anchor)),
+            x: dot(self.x),
+            y: dot(self.y),
+        }
+    }
+
     /// An [anchored](Self::anchored) slope from the picture's origin on, once for all of its pixels: modulo 2^32 that is the same.
     #[inline(always)]
     pub(crate) fn at_origin(&self, slope: Slope) -> Slope {
@@ -205,35 +245,43 @@ impl Slope {
     }
 }
 
+impl Slope {
+    /// Of 2^`up` times the value.
+    #[inline(always)]
+    pub(crate) fn shifted(&self, up: u32) -> Slope {
+        Slope {
+            value: self.value.wrapping_shl(up),
+            x: self.x.wrapping_shl(up),
+            y: self.y.wrapping_shl(up),
+        }
+    }
+}
+
 /// What a varying keeps of a triangle that has [`Weights`]; [`Infallible`] for those that always take the wide way.
 pub trait Slopes<V: Varying>: Sized {
     /// Whether there is anything to set up at all.
     const CARRIES: bool = true;
     /// Whether [`new`](Self::new) gives any: always or never.
     const EXIST: bool = true;
-    /// Whether spans are drawn by [`draw`](Self::draw), not pixel by pixel from ramps.
+    /// Whether spans are drawn by [`draw`](Self::draw), after depth is compared and stored: for values that would leave no registers
+    /// for it.
     const DRAWS: bool = false;
 
     /// Set up once per triangle; `None` where a varying has no use for weights.
     fn new(weights: &Weights, corners: [V; 3]) -> Option<Self>;
+    /// As [`new`](Self::new), of a triangle below 16 columns and rows.
+    #[inline(always)]
+    fn small(weights: &Weights, corners: [V; 3]) -> Option<Self> {
+        Self::new(weights, corners)
+    }
     /// Along a row from a place on.
     fn ramps(&self, place: (i32, i32)) -> V::Ramps;
     /// At the current pixel.
     fn values(&self, ramps: &V::Ramps) -> V::Values;
 
-    /// Draws a span, where [`DRAWS`](Self::DRAWS) says so: `pixels` and `cells` are those of the span, `depth` its depth in
-    /// units of 2^-15 step with the half that rounds.
+    /// Draws all of `pixels`, which are those of the span, where [`DRAWS`](Self::DRAWS) says so.
     #[inline(always)]
-    fn draw<D: Depth, F: Fragment<Varying = V>>(
-        &self,
-        _weights: &Weights,
-        _span: &Span,
-        _pixels: &mut [F::Pixel],
-        _cells: D::Cells<'_>,
-        _depth: Ramp<i32>,
-        _fragment: &F,
-    ) {
-    }
+    fn draw<F: Fragment<Varying = V>>(&self, _span: &Span, _pixels: &mut [F::Pixel], _fragment: &F) {}
 }
 
 impl<V: Varying> Slopes<V> for Infallible {

@@ -1,20 +1,22 @@
 //! Small triangles: less than 16 columns and rows, which is most triangles of a fine mesh.
 //!
-//! A shorter walk to the same bits: what is covered is that of exact geometry, values are the [slopes](mod@crate::slope) of
-//! any other triangle, and whatever does not fit is left to [the walk](mod@crate::draw) of large ones. That is what crosses
-//! the window's left or right side, what is too thin for slopes, and targets whose rows do not lie at one distance.
+//! A shorter walk: what is covered is that of exact geometry, values are within the error of the [slopes](mod@crate::slope) of
+//! any other triangle, and what is too thin is left to [the walk](mod@crate::draw) of large ones. Which walk draws a triangle
+//! is for its corners alone to say, so that any window and any target has the same bits.
 //!
 //! All of coverage fits words of 32 bits: sides below 2^12 subpixels, edge functions below 2^24. One function, [`find`], the
-//! same for all that is drawn, finds the rows' spans, and tells at once where there are none. An edge is followed by steps of
-//! a column, not by division: over all rows it moves by hardly more columns than the triangle has.
+//! same for all that is drawn, finds the rows' spans, and tells at once where there are none. A side is followed by a step per
+//! row from two divisions where the core divides, else by steps of a column.
 //!
-//! Both buffers are then looked at once for each triangle, as blocks of rows.
+//! Both buffers are then looked at once for each triangle, as blocks of rows. Where a triangle crosses the left or right side
+//! of the window, or rows do not lie at one distance, its spans are drawn one by one.
 //!
-//! **Cost** on Cortex-M4, with colours and depth: some 300 instructions for what is covered, 90 for the weights, 160 for the
-//! values, 130 around them; then 14 for each row, 30 more for each that is drawn, and 19 for each pixel.
+//! **Cost** on Cortex-M4, with colours and depth: some 230 instructions for what is covered, 75 for the weights, 130 for the
+//! values, 110 around them; then 12 for each row, 46 more for each that is drawn, and 18 for each pixel.
 //!
-//! **Error**: a step is off by 4·2^up units of a value of 31 bits, `up` as [slopes](mod@crate::slope) have it, which are there
-//! for no more than 1024 >> up rows and columns: below 4096 units, an eighth of a step of depth.
+//! **Error**: weights are in units of 2^-27 whatever the triangle's size, `up` 5 as [slopes](mod@crate::slope) have it: a step
+//! is off by 128 units of a value of 31 bits. There are no more than 32 rows and columns: below 4096 units, an eighth of a step
+//! of depth. [Colours](crate::varying::Color565) are cut to 2^-11 level in each step, and within a 64th of a level.
 
 use core::hint::black_box;
 
@@ -22,8 +24,10 @@ use crate::depth::Depth;
 use crate::draw::Inside;
 use crate::edge::{SUBPIXEL_BITS, SUBPIXELS, first_row};
 use crate::fragment::Fragment;
+use crate::num::{high, nearer_reciprocal, sum_of_signed_parts};
 use crate::screen::Shape;
-use crate::slope::{Slopes, Weights};
+use crate::slope::{SMALL_UP, Slope, Slopes, Weights};
+use crate::span::Span;
 use crate::target::Target;
 use crate::varying::Varying;
 use crate::window::Window;
@@ -43,9 +47,7 @@ where
     S: Shape<Varying = F::Varying>,
     F: Fragment<Pixel = C::Pixel>,
 {
-    <F::Varying as Varying>::Slopes::EXIST
-        && !<F::Varying as Varying>::Slopes::DRAWS
-        && paint(color, depth, shape, fragment)
+    <F::Varying as Varying>::Slopes::EXIST && paint(color, depth, shape, fragment)
 }
 
 #[inline(never)]
@@ -58,32 +60,51 @@ where
 {
     let corners = [0, 1, 2].map(|i| shape.position(i));
     let mut spans = [0; REACH as usize];
-    let found = if D::ENABLED || <F::Varying as Varying>::Slopes::CARRIES {
-        find::<true>(&corners, &color.window(), &mut spans)
-    } else {
-        find::<false>(&corners, &color.window(), &mut spans)
+    let carries = D::ENABLED || <F::Varying as Varying>::Slopes::CARRIES;
+    let find = match (carries, DIVIDES) {
+        (true, true) => find::<true, Divided>,
+        (true, false) => find::<true, Stepped>,
+        (false, true) => find::<false, Divided>,
+        (false, false) => find::<false, Stepped>,
     };
-    match &found {
-        Found::Nothing => true,
-        Found::Large => false,
-        Found::Rows { part, weights } => {
-            // Looked at in place: taken out of its option, it would be copied.
-            let inside = Inside::new::<D, _>(weights, shape);
-            match &inside {
-                Some(inside) => paint_spans(inside, color, depth, part, &spans, fragment),
-                None => false,
-            }
-        }
+    let found = find(&corners, &color.window(), &mut spans);
+    let Found::Rows { part, weights, .. } = &found else {
+        return matches!(found, Found::Nothing);
+    };
+    // Looked at in place: taken out of its option, it would be copied.
+    let inside = values::<D, _>(weights, shape);
+    let Some(inside) = &inside else {
+        return false;
+    };
+    if !paint_block(inside, color, depth, &found, &spans, fragment) {
+        paint_rows(inside, color, depth, (part, weights), &spans, fragment);
     }
+    true
 }
 
-/// Draws the `spans` of `part`; whether the targets have blocks.
+/// All that is interpolated over a small triangle, from the first sample of its box on.
 #[inline(always)]
-fn paint_spans<C, D, F>(
+fn values<D: Depth, S: Shape>(weights: &Weights, shape: &S) -> Option<Inside<S::Varying>> {
+    let mut depth = Slope::default();
+    if D::ENABLED {
+        depth = weights.small_slope([0, 1, 2].map(|i| shape.depth(i)));
+        depth.value = depth.value.wrapping_add(1 << 14);
+        // Nothing of the others is loaded before that is done, as if there were registers for all.
+        black_box(());
+    }
+    Some(Inside {
+        depth,
+        slopes: <S::Varying as Varying>::Slopes::small(weights, [0, 1, 2].map(|i| shape.varying(i)))?,
+    })
+}
+
+/// Draws the `spans` of what was found; whether that is all on the window and the targets have blocks.
+#[inline(always)]
+fn paint_block<C, D, F>(
     inside: &Inside<F::Varying>,
     color: &mut C,
     depth: &mut D,
-    part: &Window,
+    found: &Found,
     spans: &Spans,
     fragment: &F,
 ) -> bool
@@ -92,6 +113,9 @@ where
     D: Depth,
     F: Fragment<Pixel = C::Pixel>,
 {
+    let Found::Rows { part, whole: true, .. } = found else {
+        return false;
+    };
     let Some((block, stride)) = color.block(part) else {
         return false;
     };
@@ -107,7 +131,8 @@ where
     for (row, &span) in (part.top..).zip(spans) {
         let [from, count] = span.to_le_bytes().map(usize::from);
         if count != 0
-            && let Some(pixels) = block.get_mut(start + from..).and_then(|rest| rest.get_mut(..count))
+            && let Some(rest) = block.get_mut(start + from..)
+            && let Some(pixels) = rest.get_mut(..count)
             && (D::ENABLED || !fragment.fill(pixels))
         {
             let place = (part.left + from as i32, row);
@@ -115,19 +140,55 @@ where
             let mut fine = depth_ramp.value as u32;
             let cells = D::block_cells(&mut cells, start + from, count);
             for (pixel, cell) in pixels.iter_mut().zip(cells) {
-                if D::test(cell, fine >> 15)
-                    && let Some(new) = fragment.shade(inside.slopes.values(&ramps), *pixel)
-                {
-                    *pixel = new;
+                if D::test(cell, fine >> 15) {
+                    if let Some(new) = fragment.shade(inside.slopes.values(&ramps), *pixel) {
+                        *pixel = new;
+                    }
+                    fine = fine.wrapping_add(depth_ramp.step as u32);
+                    F::Varying::advance(&mut ramps);
+                    single(());
+                } else {
+                    fine = fine.wrapping_add(depth_ramp.step as u32);
+                    F::Varying::advance(&mut ramps);
+                    hidden(());
                 }
-                fine = fine.wrapping_add(depth_ramp.step as u32);
-                F::Varying::advance(&mut ramps);
-                single(());
             }
         }
         start = start.wrapping_add(stride);
     }
     true
+}
+
+/// As [`paint_block`], row by row: the same bits on any window and target.
+#[cold]
+#[inline(never)]
+fn paint_rows<C, D, F>(
+    inside: &Inside<F::Varying>,
+    color: &mut C,
+    depth: &mut D,
+    (part, weights): (&Window, &Weights),
+    spans: &Spans,
+    fragment: &F,
+) where
+    C: Target,
+    D: Depth,
+    F: Fragment<Pixel = C::Pixel>,
+{
+    let window = depth.limit(color.window());
+    for (row, &span) in (part.top..part.bottom).zip(spans) {
+        let [from, count] = span.to_le_bytes().map(i32::from);
+        let span = Span::new(row, (part.left + from, part.left + from + count), &window);
+        if span.left < span.right && (window.top..window.bottom).contains(&row) {
+            inside.shade_others(color, depth, &span, weights, fragment);
+        }
+    }
+}
+
+/// As [`single`], another one: so the way around a hidden pixel stays apart, and a visible one does not jump back.
+#[inline(always)]
+fn hidden(nothing: ()) {
+    black_box(nothing);
+    black_box(nothing);
 }
 
 /// Keeps a loop from being unrolled or computed ahead: no instruction, but one that a compiler takes for a call.
@@ -144,17 +205,21 @@ type Spans = [u16; REACH as usize];
 enum Found {
     /// No sample on the window.
     Nothing,
-    /// A triangle that is not for this walk.
+    /// A triangle that is not for this walk, whatever the window.
     Large,
-    /// As much of the triangle's box as the window has rows.
-    Rows { part: Window, weights: Weights },
+    /// As much of the triangle's box as the window has rows; whether it has all of its columns.
+    Rows {
+        part: Window,
+        whole: bool,
+        weights: Weights,
+    },
 }
 
 /// Looks for what a triangle covers of `window`, with weights where it `CARRIES` values.
 ///
 /// A function of its own: the same for all that is drawn.
 #[inline(never)]
-fn find<const CARRIES: bool>(corners: &[Point; 3], window: &Window, spans: &mut Spans) -> Found {
+fn find<const CARRIES: bool, E: Side>(corners: &[Point; 3], window: &Window, spans: &mut Spans) -> Found {
     let &[mut a, mut b, mut c] = corners;
     let (leftmost, rightmost) = (a.0.min(b.0).min(c.0), a.0.max(b.0).max(c.0));
     // From the top.
@@ -168,51 +233,102 @@ fn find<const CARRIES: bool>(corners: &[Point; 3], window: &Window, spans: &mut 
         }
     }
     // Neither is negative: both are as small as their union.
-    if (rightmost.wrapping_sub(leftmost) | c.1.wrapping_sub(a.1)) as u32 >= (REACH as u32) << SUBPIXEL_BITS {
+    let extent = (rightmost.wrapping_sub(leftmost) | c.1.wrapping_sub(a.1)) as u32;
+    if extent >= (REACH as u32) << SUBPIXEL_BITS {
         return Found::Large;
     }
     let (left, right) = (first_row(leftmost), first_row(rightmost));
     let (first, end) = (first_row(a.1), first_row(c.1));
-    let (top, bottom) = (first.max(window.top), end.min(window.bottom));
-    if left >= right || top >= bottom {
-        return Found::Nothing;
-    }
-    if left < window.left || right > window.right {
-        return Found::Large;
+    let mut part = Window::new(left, first, right, end);
+    let mut whole = true;
+    if off(&part, window) {
+        (part.top, part.bottom) = (first.max(window.top), end.min(window.bottom));
+        if left.max(window.left) >= right.min(window.right) || part.top >= part.bottom {
+            return Found::Nothing;
+        }
+        whole = left >= window.left && right <= window.right;
     }
     let middle = first_row(b.1);
-    let mut long = Edge::new(a, c, left);
+    let (long, upper) = (E::new(a, c, left), E::new(a, b, left));
+    let long_is_left = (b.0 - a.0) * (c.1 - a.1) > (c.0 - a.0) * (b.1 - a.1);
+    let (mut one, mut two) = if long_is_left { (long, upper) } else { (upper, long) };
     let Some((above, below)) = spans.split_at_mut_checked((middle - first) as usize) else {
         return Found::Large;
     };
-    let mut any = long.walk(Edge::new(a, b, left), above);
+    let mut any = walk(&mut one, &mut two, above);
     if let Some(below) = below.get_mut(..(end - middle) as usize) {
-        any |= long.walk(Edge::new(b, c, left), below);
+        let lower = E::new(b, c, left);
+        if long_is_left {
+            two = lower;
+        } else {
+            one = lower;
+        }
+        any |= walk(&mut one, &mut two, below);
     }
     if any == 0 {
         return Found::Nothing;
     }
-    if top > first {
-        skip(spans, (top - first) as usize, (end - top).max(0) as usize);
+    if part.top > first {
+        skip(spans, (part.top - first) as usize, (end - part.top).max(0) as usize);
     }
     let mut weights = Weights::default();
-    if CARRIES && !lay(&mut weights, corners) {
+    if CARRIES && !lay(&mut weights, corners, extent) {
         return Found::Large;
     }
-    Found::Rows {
-        part: Window::new(left, top, right, bottom),
-        weights,
-    }
+    Found::Rows { part, whole, weights }
 }
 
-/// As [`Weights::lay`], to the same bits, of a triangle with an area whose sides fit half a word.
+/// Whether something of `part` is off `window`, or it is empty on one side.
 #[inline(always)]
-fn lay(weights: &mut Weights, &[a, b, c]: &[Point; 3]) -> bool {
-    let (first, second) = ((b.0 - a.0, b.1 - a.1), (c.0 - a.0, c.1 - a.1));
-    let area = first.0 * second.1 - first.1 * second.0;
-    let zeros = area.unsigned_abs().leading_zeros();
-    let normalized = (area.unsigned_abs().wrapping_shl(zeros), -(zeros as i32));
-    weights.lay_with_area(a, first, second, area < 0, normalized)
+fn off(part: &Window, window: &Window) -> bool {
+    // Wrapping: of windows that reach farther than corners may lie, anything may be drawn.
+    let beyond = part.left.wrapping_sub(window.left)
+        | part.top.wrapping_sub(window.top)
+        | window.right.wrapping_sub(part.right)
+        | window.bottom.wrapping_sub(part.bottom)
+        | (part.right - part.left - 1);
+    beyond < 0
+}
+
+/// The spans between two edges, as far down as there are `spans`; whether there is anywhere something.
+#[inline(always)]
+fn walk<E: Side>(left: &mut E, right: &mut E, spans: &mut [u16]) -> i32 {
+    let mut any = 0;
+    for span in spans {
+        let (from, to) = (left.next_column(), right.next_column());
+        let count = to - from;
+        *span = (from | count << 8) as u16;
+        any |= count;
+        single(());
+    }
+    any
+}
+
+/// Lays the weights of a triangle whose sides are no longer than `extent`; whether it is thick enough, and has an area.
+///
+/// With an area of 32 − `zeros` bits a weight is below 2^(4 + bits of a side + `zeros`) in units of 2^-(32 − up): within 2^30.
+#[inline(always)]
+fn lay(weights: &mut Weights, &[a, b, c]: &[Point; 3], extent: u32) -> bool {
+    let ((x1, y1), (x2, y2)) = ((b.0 - a.0, b.1 - a.1), (c.0 - a.0, c.1 - a.1));
+    let area = x1 * y2 - y1 * x2;
+    let sign = area >> 31;
+    let magnitude = ((area ^ sign) - sign) as u32;
+    let zeros = magnitude.leading_zeros();
+    if zeros + 6 > extent.leading_zeros() {
+        return false;
+    }
+    // 1/|area| = reciprocal · 2^-(62 − zeros).
+    let reciprocal = nearer_reciprocal(magnitude.wrapping_shl(zeros));
+    let reciprocal = (reciprocal ^ sign) - sign;
+    let weight = |side: i32, reciprocal: i32| high(side.wrapping_shl(zeros + SMALL_UP), reciprocal);
+    let x = (weight(y2, reciprocal), weight(y1, -reciprocal));
+    let y = (weight(x2, -reciprocal), weight(x1, reciprocal));
+    // From the nearest sample, so that it is less than a pixel off.
+    let pixel = |v: i32| (v + SUBPIXELS / 2) >> SUBPIXEL_BITS;
+    let part = (a.0 << 24 >> 24, a.1 << 24 >> 24);
+    let at = |x: i32, y: i32| sum_of_signed_parts((x, y), part);
+    *weights = Weights::of_small((pixel(a.0), pixel(a.1)), (at(x.0, y.0), at(x.1, y.1)), x, y);
+    true
 }
 
 /// Takes off `count` rows above the window; `kept` are left.
@@ -230,24 +346,74 @@ fn skip(spans: &mut Spans, count: usize, kept: usize) {
     }
 }
 
-/// As [`Edge`](crate::edge::Edge), for sides that fit half a word, without rows to skip and without a division.
+/// A side of a small triangle, from row to row.
+trait Side: Copy {
+    /// At the first row at or below `from`, columns counted from `origin`; `to` is below `from`, or at its height.
+    fn new(from: Point, to: Point, origin: i32) -> Self;
+    /// The first column at or right of the side in a row that it crosses, and one row on.
+    fn next_column(&mut self) -> i32;
+}
+
+/// With a division per side.
 ///
-/// The remainder is kept in 2^-8 of what it is there, rounded down: all that is added to it are whole numbers of that, and the
-/// sign of the floor is the sign.
-struct Edge {
+/// A place is a column in units of 2^-26. Of a side of `dy` subpixels a sample's distance, if any, is at least 1/(256·dy) of a column,
+/// that is more than 64 units, and all that is cut off in up to 16 rows is less than 32: half of that up, and the floor is exact.
+#[derive(Clone, Copy, Default)]
+struct Divided {
+    /// With all but 32 of what makes a floor of the next column.
+    place: i32,
+    step: i32,
+}
+
+/// Bits of a [`Divided`] side's column.
+const FRACTION: u32 = 26;
+
+impl Side for Divided {
+    #[inline(always)]
+    fn new(from: Point, to: Point, origin: i32) -> Self {
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        // All of its bits, so that a division need not look for the one quotient that does not fit.
+        let dy = dy & ((REACH << SUBPIXEL_BITS) - 1);
+        let above = -from.1 & (SUBPIXELS - 1);
+        // dx/dy = (coarse + fine·2^-7)·2^-19, below 2^31.
+        let quotient = |v: i32| v.checked_div(dy).unwrap_or_default();
+        let coarse = quotient(dx << 19);
+        let fine = quotient(((dx << 19) - coarse.wrapping_mul(dy)) << 7);
+        // A row that is crossed lies no farther below than `to`: the product is at most dx·2^19.
+        let start = (coarse.wrapping_mul(above) >> 1) + (fine.wrapping_mul(above) >> 8);
+        let column = (from.0 - (origin << SUBPIXEL_BITS)) << (FRACTION - SUBPIXEL_BITS);
+        Divided {
+            place: column.wrapping_add(start).wrapping_add((1 << FRACTION) - 32),
+            step: (coarse << 7).wrapping_add(fine),
+        }
+    }
+
+    #[inline(always)]
+    fn next_column(&mut self) -> i32 {
+        let column = self.place >> FRACTION;
+        self.place = self.place.wrapping_add(self.step);
+        column
+    }
+}
+
+/// Where division is a call: by steps of a column. Over all rows a side moves by hardly more columns than the triangle has.
+///
+/// As [`Edge`](crate::edge::Edge), for sides that fit half a word, without rows to skip. The remainder is kept in 2^-8 of what
+/// it is there, rounded down: all that is added to it are whole numbers of that, and the sign of the floor is the sign.
+#[derive(Clone, Copy)]
+struct Stepped {
     column: i32,
     remainder: i32,
     dx: i32,
     dy: i32,
 }
 
-impl Edge {
-    /// At the first row at or below `from`, columns counted from `origin`.
+impl Side for Stepped {
     #[inline(always)]
     fn new(from: Point, to: Point, origin: i32) -> Self {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let above = -from.1 & (SUBPIXELS - 1);
-        Edge {
+        Stepped {
             column: (from.0 >> SUBPIXEL_BITS) - origin,
             remainder: -((from.0 & (SUBPIXELS - 1)) * dy + dx * above) >> SUBPIXEL_BITS,
             dx,
@@ -255,24 +421,9 @@ impl Edge {
         }
     }
 
-    /// What lies between this edge and another, as far down as there are `spans`; whether that is anywhere something.
+    /// In a row that is crossed `dy` is not 0.
     #[inline(always)]
-    fn walk(&mut self, mut other: Edge, spans: &mut [u16]) -> i32 {
-        let mut any = 0;
-        for span in spans {
-            let (one, two) = (self.first_column(), other.first_column());
-            let (from, count) = if two < one { (two, one - two) } else { (one, two - one) };
-            *span = (from | count << 8) as u16;
-            any |= count;
-            self.remainder -= self.dx;
-            other.remainder -= other.dx;
-        }
-        any
-    }
-
-    /// The first column at or right of the edge, of a row that it crosses: there `dy` is not 0.
-    #[inline(always)]
-    fn first_column(&mut self) -> i32 {
+    fn next_column(&mut self) -> i32 {
         while self.remainder < 0 {
             self.remainder += self.dy;
             self.column += 1;
@@ -283,6 +434,59 @@ impl Edge {
             self.column -= 1;
             single(());
         }
+        self.remainder -= self.dx;
         self.column
+    }
+}
+
+/// Whether the core divides: all but ARMv6-M, which is the one of its family without compare-and-swap.
+const DIVIDES: bool = cfg!(not(all(target_arch = "arm", not(target_has_atomic = "32"))));
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The first column at or right of a side in a row, by a division of exact integers.
+    fn exact(from: Point, to: Point, row: i32) -> i32 {
+        let (dx, dy) = ((to.0 - from.0) as i64, (to.1 - from.1) as i64);
+        let below = (row * SUBPIXELS - from.1) as i64;
+        let (numerator, denominator) = (from.0 as i64 * dy + dx * below, dy * SUBPIXELS as i64);
+        -(-numerator).div_euclid(denominator) as i32
+    }
+
+    fn follow<E: Side>(from: Point, to: Point) {
+        let mut side = E::new(from, to, 0);
+        for row in first_row(from.1)..first_row(to.1) {
+            assert_eq!(side.next_column(), exact(from, to, row), "{from:?} {to:?} in row {row}");
+        }
+    }
+
+    /// Both ways on a million sides: any, and such as pass samples, where a side of many rows comes nearest to a column.
+    #[test]
+    fn sides_have_the_exact_columns() {
+        let mut state = 1u64;
+        let mut below = |limit: i32| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) % limit as u64) as i32
+        };
+        const LONGEST: i32 = (REACH << SUBPIXEL_BITS) - 1;
+        for case in 0..1_000_000 {
+            let dy = match case % 4 {
+                0 => below(LONGEST) + 1,
+                1 => LONGEST - below(300).min(LONGEST - 1),
+                2 => below(300) + 1,
+                _ => (below(15) + 1) << SUBPIXEL_BITS,
+            };
+            let from = match case % 3 {
+                0 => (below(4096), below(256)),
+                1 => (below(16) << SUBPIXEL_BITS, 0),
+                _ => (below(4096), 256 - below(3)),
+            };
+            let to = (below(4096), from.1 + dy);
+            follow::<Divided>(from, to);
+            follow::<Stepped>(from, to);
+        }
     }
 }

@@ -7,7 +7,6 @@
 use core::hint::black_box;
 use core::marker::PhantomData;
 use core::mem;
-use core::ops::Range;
 
 use crate::edge::{Edge, first_row};
 use crate::num::Word;
@@ -292,56 +291,82 @@ fn is_beside(window: Window, leftmost: i32, rightmost: i32) -> bool {
     first_row(leftmost) >= window.right || first_row(rightmost) <= window.left
 }
 
-/// The spans between two edges, which are left at the row after the last.
-#[inline(always)]
-fn rows<W: Word>(rows: Range<i32>, window: Window, (left, right): &mut (Edge<W>, Edge<W>), mut draw: impl FnMut(Span)) {
-    for row in rows {
-        let span = Span::new(row, (left.column(), right.column()), &window);
-        if span.left < span.right {
-            draw(span);
-        }
-        left.descend();
-        right.descend();
-    }
-}
-
 /// Any number of corners.
 #[inline(always)]
 fn scan_polygon<W: Word>(corners: &impl Corners, ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
-    let count = corners.count();
-    let mut top = 0;
-    let mut lowest = i32::MIN;
-    let (mut leftmost, mut rightmost) = (i32::MAX, i32::MIN);
-    for i in 0..count {
-        let (x, y) = corners.position(i);
-        lowest = lowest.max(y);
-        (leftmost, rightmost) = (leftmost.min(x), rightmost.max(x));
-        if y < corners.position(top).1 {
-            top = i;
-        }
+    let mut rows = PolygonRows::<W, _>::new(corners, ccw, window);
+    while let Some(span) = rows.next() {
+        draw(span);
     }
-    if is_beside(window, leftmost, rightmost) {
-        return;
-    }
-    let end = first_row(lowest).min(window.bottom);
-    let mut row = first_row(corners.position(top).1).max(window.top);
+}
 
-    // Counter-clockwise on the screen, the corners after the top one run down its left side.
-    let mut left = Chain::<W>::new(top, ccw);
-    let mut right = Chain::<W>::new(top, !ccw);
-    while row < end {
-        left.reach(corners, row);
-        right.reach(corners, row);
-        let stop = end.min(left.end).min(right.end);
-        if stop <= row {
-            // Only a polygon whose chain turns back up gets here (cut points a unit out of order): nothing more is
-            // certain to lie inside it.
-            return;
+/// A polygon's rows on a window, walked from the top.
+struct PolygonRows<'c, W, S> {
+    corners: &'c S,
+    window: Window,
+    sides: [Chain<W>; 2],
+    row: i32,
+    /// Where the first of the present edges ends.
+    stop: i32,
+    /// The one after the last; none for a polygon beside the window.
+    end: i32,
+}
+
+impl<'c, W: Word, S: Corners> PolygonRows<'c, W, S> {
+    /// The same code for all that is drawn of one kind of corners, as [`next`](Self::next).
+    #[inline(never)]
+    fn new(corners: &'c S, ccw: bool, window: Window) -> Self {
+        let (mut top, mut lowest) = (0, i32::MIN);
+        let (mut leftmost, mut rightmost) = (i32::MAX, i32::MIN);
+        for i in 0..corners.count() {
+            let (x, y) = corners.position(i);
+            lowest = lowest.max(y);
+            (leftmost, rightmost) = (leftmost.min(x), rightmost.max(x));
+            if y < corners.position(top).1 {
+                top = i;
+            }
         }
-        let mut edges = (left.edge, right.edge);
-        rows(row..stop, window, &mut edges, &mut draw);
-        (left.edge, right.edge) = edges;
-        row = stop;
+        PolygonRows {
+            corners,
+            window,
+            // Counter-clockwise on the screen, the corners after the top one run down its left side.
+            sides: [Chain::new(top, ccw), Chain::new(top, !ccw)],
+            row: first_row(corners.position(top).1).max(window.top),
+            stop: i32::MIN,
+            end: if is_beside(window, leftmost, rightmost) {
+                i32::MIN
+            } else {
+                first_row(lowest).min(window.bottom)
+            },
+        }
+    }
+
+    #[inline(never)]
+    fn next(&mut self) -> Option<Span> {
+        while self.row < self.end {
+            if self.row >= self.stop {
+                self.stop = self.end;
+                for side in &mut self.sides {
+                    side.reach(self.corners, self.row);
+                    self.stop = self.stop.min(side.end);
+                }
+                if self.stop <= self.row {
+                    // Only a polygon whose chain turns back up gets here (cut points a unit out of order): nothing more is
+                    // certain to lie inside it.
+                    self.end = self.row;
+                    return None;
+                }
+            }
+            let [left, right] = &mut self.sides;
+            let span = Span::new(self.row, (left.edge.column(), right.edge.column()), &self.window);
+            left.edge.descend();
+            right.edge.descend();
+            self.row += 1;
+            if span.left < span.right {
+                return Some(span);
+            }
+        }
+        None
     }
 }
 

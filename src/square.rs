@@ -166,7 +166,8 @@ impl Sides {
     fn values(&self, from: i32, to: i32) -> (i32, i32) {
         let rise = to as i64 - from as i64;
         let at = |side: i32| {
-            let distance = (side as i64 - self.start).clamp(0, self.size);
+            // No `clamp`, which panics for a negative size: that there is none, not every compiler sees.
+            let distance = (side as i64 - self.start).max(0).min(self.size);
             // 2^31·2^31 in the domain.
             let product = rise.saturating_mul(distance).saturating_add(self.size / 2);
             let value = from as i64 + product.checked_div_euclid(self.size).unwrap_or(0);

@@ -118,8 +118,19 @@ impl<'a, P: Copy> Buffer<'a, P> {
     ///
     /// # Errors
     /// [`Error::BufferTooSmall`] where `pixels` holds fewer; [`Error::TooLarge`] beyond 32768 pixels a side.
+    #[inline]
     pub fn new(pixels: &'a mut [P], width: u16, height: u16) -> Result<Self, Error> {
-        Self::strip(pixels, Window::new(0, 0, width as i32, height as i32))
+        // As `with_stride` would find, by a comparison each: what most pictures are made by takes little flash.
+        if width.max(height) > 32768 {
+            return Err(Error::TooLarge);
+        }
+        let stride = width as usize;
+        // At most 2^30.
+        if stride * height as usize > pixels.len() {
+            return Err(Error::BufferTooSmall);
+        }
+        let window = Window::new(0, 0, width as i32, height as i32);
+        Ok(Buffer { pixels, stride, window })
     }
 
     /// The part `window` of a picture, row after row.

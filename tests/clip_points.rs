@@ -206,7 +206,14 @@ fn check_neighbours<T: Word, W: Word>(seen: &Seen, [a, b, c, d]: [Point; 4]) -> 
     let mut found = ORDERS.iter().flat_map(both).filter(|positions| !positions.is_empty());
     if let Some(first) = found.next() {
         for other in found {
-            prop_assert_eq!(&other, &first, "neighbours meet at different points");
+            // A part of what passes through infinity that has no area on the screen is left out, and its corners with it.
+            let fewer = seen.behind == Behind::Divide && (other.is_subset(&first) || first.is_subset(&other));
+            prop_assert!(
+                other == first || fewer,
+                "neighbours meet at different points: {:?}, {:?}",
+                first,
+                other
+            );
         }
     }
     Ok(())

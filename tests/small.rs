@@ -1,5 +1,5 @@
-//! Triangles of a few pixels, which are walked in words of 32 bits and without a division: the samples of exact
-//! geometry, depths and colours within their stated errors, the same bits in any window.
+//! Triangles of a few pixels, which are walked in words of 32 bits: the samples of exact geometry, depths and colours within
+//! their stated errors, the same bits in any window and target.
 
 mod naive;
 
@@ -8,7 +8,7 @@ use fixel::draw;
 use fixel::fragment::{Flat, Gouraud565};
 use fixel::screen::{Corner, FineDepth, Position, SubPx};
 use fixel::span::doubled_area;
-use fixel::target::Buffer;
+use fixel::target::{Buffer, Target};
 use fixel::varying::{Color565, Varying};
 use fixel::window::Window;
 use naive::Point;
@@ -226,6 +226,41 @@ fn any_window_has_the_same_bits() {
         let found: Vec<_> = found.0.into_iter().zip(found.1).collect();
         samples += found.iter().filter(|pixel| pixel.1 != FAR).count();
         assert_eq!(found, expected, "case {case}: {points:?} in {part:?}");
+    }
+    assert!(samples > 30_000, "{samples}");
+}
+
+/// A picture that lends its rows, but no block of them.
+struct RowByRow<'a>(Buffer<'a, u16>);
+
+impl Target for RowByRow<'_> {
+    type Pixel = u16;
+
+    fn window(&self) -> Window {
+        self.0.window()
+    }
+    fn row(&mut self, row: i32) -> &mut [u16] {
+        self.0.row(row)
+    }
+}
+
+#[test]
+fn any_target_has_the_same_bits() {
+    const ALL: Window = Window::new(-48, -48, 48, 48);
+    let mut random = Random(4);
+    let mut samples = 0;
+    for case in 0..20_000 {
+        let points = random.triangle();
+        let (depths, colors) = ([(); 3].map(|()| random.depth()), [(); 3].map(|()| random.color()));
+        let shape = corners(points, depths, colors.map(|[r, g, b]| Gouraud565::corner(r, g, b)));
+        let expected = shaded(&shape, ALL, 7);
+        let size = ALL.width() * ALL.height();
+        let (mut colors, mut depths) = (vec![7; size], vec![FAR; size]);
+        let mut depth = DepthBuffer::<_, Always>::new(RowByRow(Buffer::strip(&mut depths, ALL).unwrap()));
+        let mut target = RowByRow(Buffer::strip(&mut colors, ALL).unwrap());
+        draw::triangle(&mut target, &mut depth, &shape, &Gouraud565);
+        samples += colors.iter().filter(|&&color| color != 7).count();
+        assert!((colors, depths) == expected, "case {case}: {points:?}");
     }
     assert!(samples > 30_000, "{samples}");
 }

@@ -151,7 +151,7 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
         T: Word,
         F::Varying: Carried,
     {
-        view.clip_triangle::<F::Varying>([a, b, c], &mut |shape| self.shape(shape, Position::placed, *fragment));
+        view.clip_triangle::<F::Varying>([a, b, c], |left| self.shape(&left.shown(), Position::placed, *fragment));
     }
 
     /// As [`draw::polygon`]: a convex polygon with corners within ±4096 px, such as [`View::project`] makes.

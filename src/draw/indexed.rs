@@ -10,7 +10,7 @@ use crate::num::Word;
 use crate::target::Target;
 use crate::view::{Carried, Facing, ScreenVertex, Triangle, View, Way};
 
-use super::shape;
+use super::{projected, shape};
 
 /// Draws triangles whose corners are indices into `vertices`, made by [`View::vertex`] of the same view. A triangle with an
 /// index beyond the last vertex draws nothing.
@@ -152,8 +152,8 @@ where
         b: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
         c: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
     ) {
-        view.clip_triangle::<F::Varying>([a, b, c], &mut |left| {
-            shape::<W, _, _, _, _>(self.color, self.depth, left, self.fragment);
+        view.clip_triangle::<F::Varying>([a, b, c], |left| {
+            projected::<W, _, _, _, _>(self.color, self.depth, &left.shown(), self.fragment);
         });
     }
 }

@@ -202,7 +202,8 @@ impl<V: Varying> Along<V> {
         } else {
             Ramp::default()
         };
-        let planes = V::planes(&basis, 3, |i| axis.varying(i));
+        let mut planes = V::NO_PLANES;
+        V::lay(&mut planes, &basis, 3, |i| axis.varying(i));
         let ramps = V::ramps(&planes, &place);
         Some(Along { planes, ramps, depth })
     }

@@ -3,6 +3,7 @@
 use crate::depth::Depth;
 use crate::disc::Disc;
 use crate::fragment::Fragment;
+use crate::gradient::Basis;
 use crate::num::{Block, Word};
 use crate::screen::SubPx;
 use crate::square::Square;
@@ -30,7 +31,7 @@ where
     D: Depth,
     F: Fragment<Pixel = C::Pixel>,
 {
-    paint(color, depth, square, square, fragment);
+    paint(color, depth, square, &Basis::new(square), square, fragment);
 }
 
 /// Draws a disc around a point; see [`disc`](mod@crate::disc).
@@ -51,7 +52,7 @@ where
     D: Depth,
     F: Fragment<Pixel = C::Pixel>,
 {
-    paint(color, depth, disc, disc, fragment);
+    paint(color, depth, disc, &Basis::new(disc), disc, fragment);
 }
 
 /// Draws a [`square`](square()) around a point in eye space, unless it is clipped: all of it or none.

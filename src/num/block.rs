@@ -35,7 +35,9 @@ impl<T: Word, const N: usize> Block<T, N> {
     };
 
     /// The numbers `mantissas[i] · 2^exponent`, exactly: any mantissas of at most [`Word::BITS`] bits.
-    #[inline]
+    ///
+    /// A function of its own: constants are made of it in many places of a program.
+    #[inline(never)]
     pub fn new(mantissas: [T; N], exponent: i32) -> Self {
         Self::from_wide(mantissas.map(T::widen), exponent)
     }

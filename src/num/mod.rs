@@ -20,10 +20,10 @@ pub use block::{Block, Scaled};
 pub use one_step::OneStep;
 pub use power::power;
 pub use precision::{Precision, TwoSteps};
-pub(crate) use product::{high, high_sum, high_unsigned, product, sum_of_parts};
+pub(crate) use product::{high, high_sum, high_unsigned, product, short_sum, sum_of_parts, sum_of_signed_parts};
 pub use quotient::Divisor;
 pub use recip::reciprocal;
-pub(crate) use recip::{near_reciprocal, short_reciprocal};
+pub(crate) use recip::{near_reciprocal, nearer_reciprocal};
 pub use root::{dot, reciprocal_square_root, square_root, unit, unit_wide};
 pub use table::Table;
 #[cfg(feature = "micromath")]

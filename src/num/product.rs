@@ -78,6 +78,33 @@ pub(crate) fn sum_of_parts((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
     }
 }
 
+/// The same for p and q in −128…127.
+#[inline(always)]
+pub(crate) fn sum_of_signed_parts((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
+    if BY_HALVES {
+        sum_of_parts_by_bytes((a, b), (p, q))
+    } else {
+        high_sum((a, b), (p << 24, q << 24))
+    }
+}
+
+/// (a·p + b·q) · 2^(`UP` − 32), rounded down, for a and b within ±2^14 and a sum of whose result there is room in a word.
+#[inline(always)]
+pub(crate) fn short_sum<const UP: u32>((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
+    if BY_HALVES {
+        short_sum_by_halves::<UP>((a, b), (p, q))
+    } else {
+        high_sum((a << UP, b << UP), (p, q))
+    }
+}
+
+#[inline(always)]
+fn short_sum_by_halves<const UP: u32>((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
+    let low = a.wrapping_mul(p & 0xffff).wrapping_add(b.wrapping_mul(q & 0xffff));
+    let high = a.wrapping_mul(p >> 16).wrapping_add(b.wrapping_mul(q >> 16));
+    high.wrapping_add(low >> 16) >> (16 - UP)
+}
+
 #[inline(always)]
 fn sum_of_parts_by_bytes((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
     let low = (a & 255) * p + (b & 255) * q;
@@ -155,6 +182,50 @@ mod tests {
                             assert_eq!(high_sum_by_halves((a, b), (p, q)) as i128, sum >> 32, "{a} {p} {b} {q}");
                             assert_eq!(sign_of_sum((a, b), (p, q)) < 0, sum < 0, "{a} {p} {b} {q}");
                         }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn short_sums_by_halves_are_the_same() {
+        let weights = [
+            0,
+            1,
+            -1,
+            0xffff,
+            -0x1_0000,
+            0x3fff_ffff,
+            -0x4000_0000,
+            0x1234_5678,
+            -0x0edc_ba98,
+        ];
+        let values = [0, 1, -1, 127, -128, 16128, -16128, 16383, -16383];
+        let bytes = [0, 1, -1, 127, -128];
+        for p in weights {
+            for q in weights {
+                for a in values {
+                    for b in values {
+                        let exact = a as i64 * p as i64 + b as i64 * q as i64;
+                        assert_eq!(short_sum::<7>((a, b), (p, q)) as i64, exact >> 25, "{a} {p} {b} {q}");
+                        assert_eq!(
+                            short_sum_by_halves::<7>((a, b), (p, q)) as i64,
+                            exact >> 25,
+                            "{a} {p} {b} {q}"
+                        );
+                        assert_eq!(
+                            short_sum_by_halves::<8>((a, b), (p, q)) as i64,
+                            exact >> 24,
+                            "{a} {p} {b} {q}"
+                        );
+                    }
+                }
+                for a in bytes {
+                    for b in bytes {
+                        let exact = a as i64 * p as i64 + b as i64 * q as i64;
+                        assert_eq!(sum_of_signed_parts((p, q), (a, b)) as i64, exact >> 8);
+                        assert_eq!(sum_of_parts_by_bytes((p, q), (a, b)) as i64, exact >> 8);
                     }
                 }
             }

@@ -1,7 +1,5 @@
 //! Reciprocals without a divider.
 
-use core::num::NonZeroU32;
-
 use super::product::high;
 
 /// floor(2^63 / `divisor`), exactly, for a normalised divisor in 2^31…2^32−1; the result lies in 2^31…2^32.
@@ -57,10 +55,18 @@ pub(crate) fn near_reciprocal(divisor: u32) -> i32 {
     y
 }
 
-/// floor(2^31 / `divisor`), by the core's divider: 3 instructions on Cortex-M4, some 200 on ARMv6-M, which has none.
-#[inline(always)]
-pub(crate) fn short_reciprocal(divisor: NonZeroU32) -> u32 {
-    (1 << 31) / divisor
+/// As [`near_reciprocal`], within 7 units: the first step in halves of words, whose product is one instruction everywhere.
+#[inline]
+pub(crate) fn nearer_reciprocal(divisor: u32) -> i32 {
+    let seed = SEEDS.get(((divisor >> 24) & 127) as usize).copied().unwrap_or(u16::MAX) as u32;
+    // 1 − d·y in units of 2^-31, within 2^-7, of the divisor's upper half rounded up: y stays below the reciprocal.
+    let error = (1u32 << 31).wrapping_sub(seed.wrapping_mul((divisor >> 16) + 1)) as i32;
+    let y = (seed << 15)
+        .cast_signed()
+        .wrapping_add((seed.cast_signed().wrapping_mul(error >> 9)) >> 7);
+    let product = high(y, divisor as i32).wrapping_add(y);
+    let error = ((1 << 30) - 1i32).wrapping_sub(product);
+    y.wrapping_add(high(y, error << 2))
 }
 
 /// seed·2^16 ≈ 2^63 / divisor for the divisors that share their top eight bits, 128 + i.
@@ -75,3 +81,23 @@ const SEEDS: [u16; 128] = {
     }
     seeds
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nearer_reciprocals_are_below_and_near() {
+        for i in 0..1u64 << 22 {
+            // A prime's multiples, over all divisors; the ends too.
+            let divisor = (1u64 << 31 | (i * 1_000_003) & 0x7fff_ffff) as u32;
+            let found = nearer_reciprocal(divisor) as i64;
+            let exact = ((1u64 << 62) / divisor as u64) as i64;
+            assert!(
+                found > 0 && found <= exact && exact - found <= 7,
+                "{divisor}: {found}, not {exact}"
+            );
+        }
+        assert!(nearer_reciprocal(u32::MAX) >= (1 << 30) - 7);
+    }
+}

@@ -30,7 +30,10 @@ impl Angle {
     /// assert_eq!(Angle::from_degrees(450), Angle::from_degrees(90));
     /// ```
     pub const fn from_degrees(degrees: i32) -> Self {
-        Angle((((degrees.rem_euclid(360) as u128) << 64) / 360) as u64)
+        // 2^64 = 360 · whole + rest.
+        let (whole, rest) = (u64::MAX / 360, u64::MAX % 360 + 1);
+        let degrees = degrees.rem_euclid(360) as u64;
+        Angle(degrees * whole + ((degrees * rest) as u32 / 360) as u64)
     }
 
     /// Radians in units of 2^-32, any number of turns; within (1 + 2^-33·|radians|)·2^-64 turn.

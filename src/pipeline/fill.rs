@@ -8,7 +8,7 @@ use crate::gradient::{Basis, EXTRA_BITS, Plane, Ramp};
 use crate::line::Line;
 use crate::num::Word;
 use crate::screen::Shape;
-use crate::span::{Corners, Span, doubled_area, scan};
+use crate::span::{Corners, Span, scan};
 use crate::varying::Varying;
 use crate::window::Window;
 
@@ -34,19 +34,20 @@ pub(super) fn polygon<T, W, C, D, P, V, const N: usize>(
     P: Program<T, Output: Outputs<C>>,
     V: Varying<Values = Packed<T, P>>,
 {
-    let area = doubled_area(piece);
+    let outline = piece.outline();
+    let area = outline.area();
     if area == 0 {
         return;
     }
     if let Some(values) = constant::<T, D, P>() {
-        scan::<W>(piece, area > 0, window, |span| flat(colors, &span, values, program));
+        scan::<W>(&outline, area > 0, window, |span| flat(colors, &span, values, program));
         return;
     }
-    let Some(basis) = Basis::new(piece) else {
+    let Some(basis) = Basis::new(&outline) else {
         return;
     };
     let planes = Set::new::<T, D, P, _, N>(&basis, piece, piece);
-    scan::<W>(piece, area > 0, window, |span| {
+    scan::<W>(&outline, area > 0, window, |span| {
         planes.shade::<T, C, D, P>(&basis, colors, depth, &span, program);
     });
 }
@@ -155,7 +156,7 @@ impl<V: Varying> Set<V> {
     {
         let count = shape.count();
         let plane = |value: &dyn Fn(usize) -> i32| plane(basis, count, value);
-        Set {
+        let mut set = Set {
             depth: if D::ENABLED || P::At::DEPTH {
                 plane(&|i| shape.depth(i))
             } else {
@@ -168,8 +169,10 @@ impl<V: Varying> Set<V> {
                 Plane::default()
             },
             exponent: piece.exponent,
-            varying: V::planes(basis, count, |i| shape.varying(i)),
-        }
+            varying: V::NO_PLANES,
+        };
+        V::lay(&mut set.varying, basis, count, |i| shape.varying(i));
+        set
     }
 
     #[inline(always)]
@@ -284,12 +287,13 @@ fn span_of<'c, T, C, D, P, V>(
 /// The plane through a value of every corner.
 #[inline(never)]
 fn plane(basis: &Basis, count: usize, value: &dyn Fn(usize) -> i32) -> Plane {
-    let (mut least, mut most) = (i32::MAX, i32::MIN);
+    let mut plane = Plane::NONE;
+    plane.empty();
     for i in 0..count {
-        let v = value(i);
-        (least, most) = (least.min(v), most.max(v));
+        plane.hold(basis.place_of(i), value(i));
     }
-    basis.plane(basis.corners().map(value), (least, most))
+    plane.settle(basis);
+    plane
 }
 
 /// Shapes that know 1/w of their corners.

@@ -1,11 +1,11 @@
 //! From clip space to the screen: clip planes, culling, the guard band, the division.
 
-use crate::clip::{Behind, ClipCorner, DepthRange, Polygon, cut, depth_plane, to_view};
+use crate::clip::{Behind, ClipCorner, DepthRange, Held, Polygon, cut, depth_plane, to_view};
 use crate::num::{Block, Scaled, Wide, Word};
 use crate::screen::Shape;
-use crate::span::{Corners, doubled_area};
+use crate::span::Corners;
 use crate::varying::Varying;
-use crate::view::{Carried, Weigh, in_clip_space, w_of};
+use crate::view::{Carried, PlacedCorner, Weigh, in_clip_space, w_of};
 use crate::viewport::Viewport;
 
 use super::state::{Culling, State};
@@ -22,11 +22,9 @@ pub(super) struct Wanted {
     pub(super) inverse_w: bool,
 }
 
-/// A corner on the screen.
+/// What belongs to a corner on the screen.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Corner<V> {
-    position: (i32, i32),
-    depth: i32,
+struct Own<V> {
     /// 1/w in units of 2^`exponent` of the piece.
     inverse: i32,
     varying: V,
@@ -35,8 +33,9 @@ pub(super) struct Corner<V> {
 /// A polygon or a line on the screen.
 #[derive(Debug)]
 pub(super) struct Piece<V, const N: usize> {
-    corners: Polygon<Corner<V>, N>,
-    first: Corner<V>,
+    corners: Polygon<PlacedCorner, N>,
+    own: Polygon<Own<V>, N>,
+    first: Own<V>,
     /// Of 1/w.
     pub(super) exponent: i32,
     /// Depths are in units of 2^(`depth_shift` − 15) step.
@@ -45,13 +44,19 @@ pub(super) struct Piece<V, const N: usize> {
 
 impl<V: Copy, const N: usize> Piece<V, N> {
     #[inline]
-    fn corner(&self, index: usize) -> &Corner<V> {
-        self.corners.get(index).unwrap_or(&self.first)
+    fn own(&self, index: usize) -> &Own<V> {
+        self.own.get(index).unwrap_or(&self.first)
     }
 
     #[inline]
     pub(super) fn inverse(&self, index: usize) -> i32 {
-        self.corner(index).inverse
+        self.own(index).inverse
+    }
+
+    /// The corners by themselves: what walks them is in a program once, whatever they carry.
+    #[inline(always)]
+    pub(super) fn outline(&self) -> Held<'_, PlacedCorner> {
+        self.corners.held()
     }
 }
 
@@ -62,7 +67,7 @@ impl<V: Copy, const N: usize> Corners for Piece<V, N> {
     }
     #[inline]
     fn position(&self, index: usize) -> (i32, i32) {
-        self.corner(index).position
+        self.outline().position(index)
     }
 }
 
@@ -70,11 +75,11 @@ impl<V: Varying, const N: usize> Shape for Piece<V, N> {
     type Varying = V;
     #[inline]
     fn depth(&self, index: usize) -> i32 {
-        self.corner(index).depth
+        self.corners.get(index).map_or(0, |corner| corner.depth)
     }
     #[inline]
     fn varying(&self, index: usize) -> V {
-        self.corner(index).varying
+        self.own(index).varying
     }
 }
 
@@ -154,7 +159,7 @@ where
         };
         line = Polygon::of_vertices([a.position, b.position]);
     }
-    to_view(&mut line, &state.viewport, DepthRange::Unlimited, Behind::Cut)?;
+    to_view(&mut line.slots(), &state.viewport, DepthRange::Unlimited, Behind::Cut)?;
     let shift = if wanted.depth && beyond_range(&line) {
         // The whole line keeps its pixels: a unit of 2^-7 step reaches 128 depth ranges far.
         8
@@ -174,7 +179,12 @@ fn keeps_whole<I, T: Word, W: Word, const N: usize>(
         return true;
     }
     let mut polygon = clipped.clone();
-    let left = to_view(&mut polygon, &state.viewport, DepthRange::Unlimited, Behind::Cut);
+    let left = to_view(
+        &mut polygon.slots(),
+        &state.viewport,
+        DepthRange::Unlimited,
+        Behind::Cut,
+    );
     left.is_some() && keeps(state.culling, &polygon, &state.viewport)
 }
 
@@ -194,15 +204,15 @@ fn keeps<T: Word, W: Word, const N: usize>(
         inverse_w: false,
     };
     let piece = place::<T, W, (), N>(polygon, &nothing, viewport, wanted, 0);
-    piece.is_some_and(|piece| keeps_piece(culling, &piece, viewport))
+    piece.is_some_and(|piece| keeps_piece(culling, piece.outline(), viewport))
 }
 
 /// Whether a polygon is drawn, by the way its corners run on the screen.
 #[inline]
-fn keeps_piece<W: Word>(culling: Culling, piece: &impl Corners, viewport: &Viewport<W>) -> bool {
+fn keeps_piece<W: Word>(culling: Culling, outline: Held<'_, PlacedCorner>, viewport: &Viewport<W>) -> bool {
     culling == Culling::Off || {
         // Positive is counter-clockwise with rows downwards, as seen where y is up.
-        let area = doubled_area(piece);
+        let area = outline.area();
         culling.keeps(if viewport.is_y_up() { area > 0 } else { area < 0 })
     }
 }
@@ -228,12 +238,12 @@ fn in_range<T, W, V, const N: usize>(
     W: Word,
     V: Carried,
 {
-    if to_view(&mut polygon, viewport, DepthRange::Unlimited, Behind::Cut).is_none() {
+    if to_view(&mut polygon.slots(), viewport, DepthRange::Unlimited, Behind::Cut).is_none() {
         return;
     }
     if !wanted.depth || !beyond_range(&polygon) {
         if let Some(piece) = place(&polygon, vertices, viewport, wanted, 0)
-            && keeps_piece(culling, &piece, viewport)
+            && keeps_piece(culling, piece.outline(), viewport)
         {
             draw(&piece);
         }
@@ -248,15 +258,15 @@ fn in_range<T, W, V, const N: usize>(
         }
     };
     let mut before = polygon.clone();
-    cut(&mut before, depth_plane(-1, -1));
+    cut(&mut before.slots(), depth_plane(-1, -1));
     emit(&before);
     let mut within = polygon.clone();
-    cut(&mut within, depth_plane(1, 1));
-    cut(&mut within, depth_plane(-1, 1));
+    cut(&mut within.slots(), depth_plane(1, 1));
+    cut(&mut within.slots(), depth_plane(-1, 1));
     emit(&within);
     if wanted.beyond {
         let mut beyond = polygon;
-        cut(&mut beyond, depth_plane(1, -1));
+        cut(&mut beyond.slots(), depth_plane(1, -1));
         emit(&beyond);
     }
 }
@@ -274,7 +284,7 @@ where
     W: Word,
     V: Carried,
 {
-    let weigh = Weigh::new(polygon, vertices.w, V::WANTS);
+    let weigh = Weigh::new(polygon.held(), vertices.w, V::WANTS);
     let inverses = || polygon.iter().map(inverse_w);
     let mut exponent = 0;
     if wanted.inverse_w {
@@ -286,8 +296,11 @@ where
     } else {
         DepthRange::Unlimited
     };
-    let corner = |corner: &ClipCorner<T>| {
-        let (x, y, mut depth) = viewport.place(corner.position, range)?;
+    let (mut corners, mut own) = (Polygon::default(), Polygon::default());
+    for corner in polygon.iter() {
+        let Some((x, y, mut depth)) = viewport.place(corner.position, range) else {
+            continue;
+        };
         if depth_shift > 0 {
             depth = coarse_depth(corner.position, depth_shift);
         }
@@ -296,17 +309,19 @@ where
         } else {
             0
         };
-        Some(Corner {
+        corners.slots().push(PlacedCorner {
             position: (x, y),
             depth,
+        });
+        own.slots().push(Own {
             inverse: inverse.clamp(0, 1 << 30) as i32,
             varying: V::mix(vertices.values, &weigh.weights::<V>(corner)),
-        })
-    };
-    let corners: Polygon<_, N> = polygon.iter().filter_map(corner).collect();
+        });
+    }
     Some(Piece {
-        first: *corners.get(0)?,
+        first: *own.get(0)?,
         corners,
+        own,
         exponent,
         depth_shift,
     })

@@ -1,6 +1,6 @@
 //! Colours for RGB565 targets: two channels a word.
 
-use super::{Varying, each, planes};
+use super::{Varying, each, lay};
 use crate::gradient::{Basis, Place, Plane, Ramp};
 use crate::slope::{Slope, Slopes, Weights};
 
@@ -89,6 +89,25 @@ impl Slopes<Color565> for Color565Slopes {
             green: weights.slope([ga, gb, gc]),
         })
     }
+    /// In 2^-11 level, cut down: over 32 rows and columns less than a 64th of a level (`tests/small.rs`).
+    #[inline(always)]
+    fn small(weights: &Weights, [Color565(a), Color565(b), Color565(c)]: [Color565; 3]) -> Option<Self> {
+        let ([ra, ga, ba], [rb, gb, bb], [rc, gc, bc]) = (a, b, c);
+        let (red, blue) = (weights.short::<7>([ra, rb, rc]), weights.short::<7>([ba, bb, bc]));
+        let green = weights.short::<8>([ga, gb, gc]);
+        Some(Color565Slopes {
+            pair: weights.at_origin(Slope {
+                value: pair(red.value, blue.value),
+                x: pair(red.x, blue.x),
+                y: pair(red.y, blue.y),
+            }),
+            green: weights.at_origin(Slope {
+                value: green.value << 5,
+                x: green.x << 5,
+                y: green.y << 5,
+            }),
+        })
+    }
     #[inline(always)]
     fn ramps(&self, place: (i32, i32)) -> Color565Ramps {
         Color565Ramps {
@@ -108,23 +127,26 @@ impl Varying for Color565 {
     type Ramps = Color565Ramps;
     type Values = Packed565;
 
+    const NO_PLANES: [Plane; 3] = [Plane::NONE; 3];
+
     #[inline]
-    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> [Plane; 3] {
-        planes(basis, count, |i| corner(i).0)
+    fn lay(planes: &mut [Plane; 3], basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) {
+        lay(planes, basis, count, |i| corner(i).0);
     }
     #[inline]
     fn ramps(planes: &[Plane; 3], place: &Place) -> Color565Ramps {
         let (place, skipped) = place.whole();
         // Cut towards zero as the planes' own steps are: the last pixel stays in range like the first.
         let [red, green, blue] = each(planes, |plane| plane.ramp(&place));
-        let first = Color565Ramps {
+        let mut ramps = Color565Ramps {
             pair: Ramp {
                 value: pair(red.value >> 5, blue.value >> 5),
                 step: pair(red.step / 32, blue.step / 32),
             },
             green,
         };
-        Self::after(&first, skipped)
+        Self::advance_by(&mut ramps, skipped);
+        ramps
     }
     #[inline(always)]
     fn values(_: &[Plane; 3], ramps: &Color565Ramps) -> Packed565 {
@@ -136,10 +158,8 @@ impl Varying for Color565 {
         ramps.green.advance();
     }
     #[inline(always)]
-    fn after(ramps: &Color565Ramps, count: i32) -> Color565Ramps {
-        Color565Ramps {
-            pair: ramps.pair.after(count),
-            green: ramps.green.after(count),
-        }
+    fn advance_by(ramps: &mut Color565Ramps, count: i32) {
+        ramps.pair = ramps.pair.after(count);
+        ramps.green = ramps.green.after(count);
     }
 }

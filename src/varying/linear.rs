@@ -2,7 +2,7 @@
 
 use core::convert::Infallible;
 
-use super::{Perspective, Varying, each, planes};
+use super::{Perspective, Varying, each, lay};
 use crate::gradient::{Basis, Place, Plane, Ramp};
 
 /// N values linear over the screen, |v| ≤ 2^30 in units of the user's choice.
@@ -32,9 +32,11 @@ impl<const N: usize> Varying for Linear<N> {
     type Ramps = [Ramp<i32>; N];
     type Values = [i32; N];
 
+    const NO_PLANES: [Plane; N] = [Plane::NONE; N];
+
     #[inline]
-    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> [Plane; N] {
-        planes(basis, count, |i| corner(i).0)
+    fn lay(planes: &mut [Plane; N], basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) {
+        lay(planes, basis, count, |i| corner(i).0);
     }
     #[inline(always)]
     fn ramps(planes: &[Plane; N], place: &Place) -> [Ramp<i32>; N] {
@@ -49,8 +51,8 @@ impl<const N: usize> Varying for Linear<N> {
         ramps.iter_mut().for_each(Ramp::<i32>::advance);
     }
     #[inline(always)]
-    fn after(ramps: &[Ramp<i32>; N], count: i32) -> [Ramp<i32>; N] {
-        each(ramps, |ramp| ramp.after(count))
+    fn advance_by(ramps: &mut [Ramp<i32>; N], count: i32) {
+        ramps.iter_mut().for_each(|ramp| *ramp = ramp.after(count));
     }
 }
 
@@ -74,9 +76,11 @@ impl<const N: usize> Varying for LinearFan<N> {
     type Ramps = [Ramp<i32>; N];
     type Values = [i32; N];
 
+    const NO_PLANES: [Plane; N] = [Plane::NONE; N];
+
     #[inline]
-    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> [Plane; N] {
-        planes(basis, count, |i| corner(i).0)
+    fn lay(planes: &mut [Plane; N], basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) {
+        lay(planes, basis, count, |i| corner(i).0);
     }
     #[inline(always)]
     fn ramps(planes: &[Plane; N], place: &Place) -> [Ramp<i32>; N] {
@@ -91,7 +95,7 @@ impl<const N: usize> Varying for LinearFan<N> {
         Linear::<N>::advance(ramps);
     }
     #[inline(always)]
-    fn after(ramps: &[Ramp<i32>; N], count: i32) -> [Ramp<i32>; N] {
-        Linear::<N>::after(ramps, count)
+    fn advance_by(ramps: &mut [Ramp<i32>; N], count: i32) {
+        Linear::<N>::advance_by(ramps, count);
     }
 }

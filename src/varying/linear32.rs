@@ -1,6 +1,6 @@
 //! Values that are linear over the screen, in words of 32 bits.
 
-use super::{Linear, Perspective, Varying, each, planes};
+use super::{Linear, Perspective, Varying, each, lay};
 use crate::gradient::{Basis, Place, Plane, Ramp};
 use crate::slope::{Slope, Slopes, Weights};
 
@@ -55,9 +55,11 @@ impl<const N: usize> Varying for Linear32<N> {
     type Ramps = [Ramp<i32>; N];
     type Values = [i32; N];
 
+    const NO_PLANES: [Plane; N] = [Plane::NONE; N];
+
     #[inline]
-    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> [Plane; N] {
-        planes(basis, count, |i| corner(i).0)
+    fn lay(planes: &mut [Plane; N], basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) {
+        lay(planes, basis, count, |i| corner(i).0);
     }
     #[inline]
     fn ramps(planes: &[Plane; N], place: &Place) -> [Ramp<i32>; N] {
@@ -72,7 +74,7 @@ impl<const N: usize> Varying for Linear32<N> {
         Linear::<N>::advance(ramps);
     }
     #[inline(always)]
-    fn after(ramps: &[Ramp<i32>; N], count: i32) -> [Ramp<i32>; N] {
-        Linear::<N>::after(ramps, count)
+    fn advance_by(ramps: &mut [Ramp<i32>; N], count: i32) {
+        Linear::<N>::advance_by(ramps, count);
     }
 }

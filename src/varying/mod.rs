@@ -1,6 +1,9 @@
 //! What a primitive carries from its corners to its pixels: nothing, values linear over the screen, or values in
 //! perspective. Chosen by type, so that a draw pays only for what it carries.
 
+use core::hint::black_box;
+
+use crate::fragment::Fragment;
 use crate::gradient::{Basis, Place, Plane};
 use crate::slope::{Slopes, Weights};
 
@@ -29,16 +32,20 @@ pub trait Varying: Copy + Sized {
     /// What a pixel gets.
     type Values: Copy;
 
-    /// Set up once per polygon; `corner(i)` for i in 0…count.
-    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> Self::Planes;
+    /// Planes before they are [laid](Self::lay).
+    const NO_PLANES: Self::Planes;
+
+    /// Lays planes through the corners, once per polygon; `corner(i)` for i in 0…count. In place: returned, many of them would
+    /// be on the stack twice.
+    fn lay(planes: &mut Self::Planes, basis: &Basis, count: usize, corner: impl Fn(usize) -> Self);
     /// At the first pixel of a span.
     fn ramps(planes: &Self::Planes, place: &Place) -> Self::Ramps;
     /// At the current pixel.
     fn values(planes: &Self::Planes, ramps: &Self::Ramps) -> Self::Values;
     /// One pixel on.
     fn advance(ramps: &mut Self::Ramps);
-    /// `count` pixels on from `ramps`: what as many calls of [`advance`](Self::advance) make of them.
-    fn after(ramps: &Self::Ramps, count: i32) -> Self::Ramps;
+    /// `count` pixels on: what as many calls of [`advance`](Self::advance) do.
+    fn advance_by(ramps: &mut Self::Ramps, count: i32);
 }
 
 /// Nothing: a flat colour.
@@ -48,8 +55,10 @@ impl Varying for () {
     type Ramps = ();
     type Values = ();
 
+    const NO_PLANES: () = ();
+
     #[inline(always)]
-    fn planes(_: &Basis, _: usize, _: impl Fn(usize) -> Self) {}
+    fn lay((): &mut (), _: &Basis, _: usize, _: impl Fn(usize) -> Self) {}
     #[inline(always)]
     fn ramps(_: &(), _: &Place) {}
     #[inline(always)]
@@ -57,7 +66,7 @@ impl Varying for () {
     #[inline(always)]
     fn advance(_: &mut ()) {}
     #[inline(always)]
-    fn after(_: &(), _: i32) {}
+    fn advance_by((): &mut (), _: i32) {}
 }
 
 impl Slopes<()> for () {
@@ -96,10 +105,12 @@ impl<A: Varying, B: Varying> Varying for (A, B) {
     type Ramps = (A::Ramps, B::Ramps);
     type Values = (A::Values, B::Values);
 
+    const NO_PLANES: Self::Planes = (A::NO_PLANES, B::NO_PLANES);
+
     #[inline]
-    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> Self::Planes {
-        let first = A::planes(basis, count, |i| corner(i).0);
-        (first, B::planes(basis, count, |i| corner(i).1))
+    fn lay((first, second): &mut Self::Planes, basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) {
+        A::lay(first, basis, count, |i| corner(i).0);
+        B::lay(second, basis, count, |i| corner(i).1);
     }
     #[inline(always)]
     fn ramps(planes: &Self::Planes, place: &Place) -> Self::Ramps {
@@ -115,8 +126,9 @@ impl<A: Varying, B: Varying> Varying for (A, B) {
         B::advance(&mut ramps.1);
     }
     #[inline(always)]
-    fn after(ramps: &Self::Ramps, count: i32) -> Self::Ramps {
-        (A::after(&ramps.0, count), B::after(&ramps.1, count))
+    fn advance_by(ramps: &mut Self::Ramps, count: i32) {
+        A::advance_by(&mut ramps.0, count);
+        B::advance_by(&mut ramps.1, count);
     }
 }
 
@@ -130,6 +142,11 @@ impl<A: Varying, B: Varying> Slopes<(A, B)> for (A::Slopes, B::Slopes) {
         Some((first, B::Slopes::new(weights, corners.map(|corner| corner.1))?))
     }
     #[inline(always)]
+    fn small(weights: &Weights, corners: [(A, B); 3]) -> Option<Self> {
+        let first = A::Slopes::small(weights, corners.map(|corner| corner.0))?;
+        Some((first, B::Slopes::small(weights, corners.map(|corner| corner.1))?))
+    }
+    #[inline(always)]
     fn ramps(&self, place: (i32, i32)) -> (A::Ramps, B::Ramps) {
         (self.0.ramps(place), self.1.ramps(place))
     }
@@ -138,27 +155,30 @@ impl<A: Varying, B: Varying> Slopes<(A, B)> for (A::Slopes, B::Slopes) {
         (self.0.values(&ramps.0), self.1.values(&ramps.1))
     }
 }
+/// The planes of N values each: corner by corner, one of which is on the stack at a time. Where clipping has left it, it is
+/// mixed when it is asked for.
 #[inline]
-fn planes<const N: usize>(basis: &Basis, count: usize, corner: impl Fn(usize) -> [i32; N]) -> [Plane; N] {
-    let [a, b, c] = basis.corners().map(&corner);
-    let mut planes = [Plane::default(); N];
-    let values = a.iter().zip(&b).zip(&c);
-    for ((plane, ((&a, &b), &c)), &range) in planes.iter_mut().zip(values).zip(&ranges(count, corner)) {
-        *plane = basis.plane([a, b, c], range);
+fn lay<const N: usize>(planes: &mut [Plane; N], basis: &Basis, count: usize, corner: impl Fn(usize) -> [i32; N]) {
+    planes.iter_mut().for_each(Plane::empty);
+    for i in 0..count {
+        hold(planes, basis.place_of(i), &corner(i));
     }
-    planes
+    settle(planes, basis);
 }
 
-/// Least and largest of each value over the corners.
-#[inline]
-fn ranges<const N: usize>(count: usize, corner: impl Fn(usize) -> [i32; N]) -> [(i32, i32); N] {
-    let mut ranges = [(i32::MAX, i32::MIN); N];
-    for i in 0..count {
-        for (range, v) in ranges.iter_mut().zip(corner(i)) {
-            widen(range, v);
-        }
+/// One corner, and which of the basis it is. The same code for any number of values.
+#[inline(never)]
+fn hold(planes: &mut [Plane], place: Option<usize>, values: &[i32]) {
+    for (plane, &value) in planes.iter_mut().zip(values) {
+        plane.hold(place, value);
     }
-    ranges
+}
+
+#[inline(never)]
+fn settle(planes: &mut [Plane], basis: &Basis) {
+    for plane in planes {
+        plane.settle(basis);
+    }
 }
 
 /// Least and largest, and one value more.
@@ -175,4 +195,25 @@ fn each<A, B: Copy + Default, const N: usize>(array: &[A; N], mut f: impl FnMut(
         *result = f(item);
     }
     results
+}
+
+/// Draws `pixels`: `values` of the `ramps` at each, which then `advance`.
+#[inline(always)]
+fn each_pixel<F, R, const N: usize>(
+    mut ramps: R,
+    values: impl Fn(&R) -> [i32; N],
+    advance: impl Fn(&mut R),
+    pixels: &mut [F::Pixel],
+    fragment: &F,
+) where
+    F: Fragment<Varying: Varying<Values = [i32; N]>>,
+{
+    for pixel in pixels {
+        // Rolled: the state of several would not fit the registers.
+        black_box(());
+        if let Some(new) = fragment.shade(values(&ramps), *pixel) {
+            *pixel = new;
+        }
+        advance(&mut ramps);
+    }
 }

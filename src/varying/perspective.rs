@@ -2,7 +2,7 @@
 
 use core::convert::Infallible;
 
-use super::{Varying, each, widen};
+use super::{Varying, each, hold, settle, widen};
 use crate::gradient::{Basis, EXTRA_BITS, Place, Plane, Ramp};
 use crate::num::reciprocal;
 
@@ -64,47 +64,25 @@ pub struct PerspectiveRamps<const N: usize> {
 }
 
 impl<const N: usize> PerspectivePlanes<N> {
-    #[inline(never)]
-    fn empty() -> Self {
-        PerspectivePlanes {
-            over_w: [Plane::EMPTY; N],
-            inverse: Plane::EMPTY,
-            ranges: [(i32::MAX, i32::MIN); N],
-            affine: false,
-        }
-    }
-
-    #[inline(never)]
-    fn widen(&mut self, corner: &Perspective<N>) {
-        self.inverse.widen(corner.inverse);
-        for (plane, &value) in self.over_w.iter_mut().zip(&corner.over_w) {
-            plane.widen(value);
-        }
+    /// One corner, and which of the basis it is.
+    #[inline(always)]
+    fn hold(&mut self, place: Option<usize>, corner: &Perspective<N>) {
+        self.inverse.hold(place, corner.inverse);
+        hold(&mut self.over_w, place, &corner.over_w);
         for (range, &value) in self.ranges.iter_mut().zip(&corner.values) {
             widen(range, value);
         }
     }
 
-    /// The corner at `place` of the three of the basis.
-    #[inline(never)]
-    fn hold(&mut self, place: usize, corner: &Perspective<N>) {
-        self.inverse.hold(place, corner.inverse);
-        for (plane, &value) in self.over_w.iter_mut().zip(&corner.over_w) {
-            plane.hold(place, value);
-        }
-    }
-
-    #[inline(never)]
+    #[inline(always)]
     fn settle(&mut self, basis: &Basis) {
         let (least, most) = self.inverse.range();
         self.affine = (least, most) == (1 << 30, 1 << 30);
         if least < 0 && most > 0 {
-            self.ranges = [(i32::MIN, i32::MAX); N];
+            self.ranges.fill((i32::MIN, i32::MAX));
         }
         self.inverse.settle(basis);
-        for plane in &mut self.over_w {
-            plane.settle(basis);
-        }
+        settle(&mut self.over_w, basis);
     }
 }
 
@@ -114,28 +92,35 @@ impl<const N: usize> Varying for Perspective<N> {
     type Ramps = PerspectiveRamps<N>;
     type Values = [i32; N];
 
+    const NO_PLANES: PerspectivePlanes<N> = PerspectivePlanes {
+        over_w: [Plane::NONE; N],
+        inverse: Plane::NONE,
+        ranges: [(0, 0); N],
+        affine: false,
+    };
+
     // A function of its own: what setting planes up takes is free again when pixels are drawn.
     #[inline(never)]
-    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> PerspectivePlanes<N> {
-        // In place, corner by corner: one is on the stack at a time. Where clipping has left it, it is mixed when it is asked for.
-        let mut planes = PerspectivePlanes::empty();
+    fn lay(planes: &mut PerspectivePlanes<N>, basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) {
+        planes.inverse.empty();
+        planes.over_w.iter_mut().for_each(Plane::empty);
+        planes.ranges.fill((i32::MAX, i32::MIN));
         for i in 0..count {
-            planes.widen(&corner(i));
-        }
-        for (place, i) in basis.corners().into_iter().enumerate() {
-            planes.hold(place, &corner(i));
+            planes.hold(basis.place_of(i), &corner(i));
         }
         planes.settle(basis);
-        planes
     }
 
-    // As above: once a span.
-    #[inline(never)]
+    #[inline]
     fn ramps(planes: &PerspectivePlanes<N>, place: &Place) -> PerspectiveRamps<N> {
-        PerspectiveRamps {
-            over_w: each(&planes.over_w, |plane| plane.fine_ramp(place)),
+        let mut ramps = PerspectiveRamps {
+            over_w: [Ramp::default(); N],
             inverse: planes.inverse.fine_ramp(place),
+        };
+        for (ramp, plane) in ramps.over_w.iter_mut().zip(&planes.over_w) {
+            *ramp = plane.fine_ramp(place);
         }
+        ramps
     }
 
     #[inline(always)]
@@ -157,11 +142,9 @@ impl<const N: usize> Varying for Perspective<N> {
         ramps.inverse.advance();
     }
     #[inline(always)]
-    fn after(ramps: &PerspectiveRamps<N>, count: i32) -> PerspectiveRamps<N> {
-        PerspectiveRamps {
-            over_w: each(&ramps.over_w, |ramp| ramp.after(count)),
-            inverse: ramps.inverse.after(count),
-        }
+    fn advance_by(ramps: &mut PerspectiveRamps<N>, count: i32) {
+        ramps.over_w.iter_mut().for_each(|ramp| *ramp = ramp.after(count));
+        ramps.inverse = ramps.inverse.after(count);
     }
 }
 

@@ -2,9 +2,11 @@
 
 use core::num::NonZeroU32;
 
-use super::{Perspective, Varying, each, planes};
+use super::{Perspective, Varying, each, each_pixel, lay};
+use crate::fragment::Fragment;
 use crate::gradient::{Basis, Place, Plane, Ramp};
 use crate::slope::{Slope, Slopes, Weights};
+use crate::span::Span;
 
 /// As [`Perspective`], in words of 32 bits: one 32-bit division for the reciprocal of 1/w at every pixel, and a product for
 /// each value. For textures of up to some 512 texels a side, and cores that divide.
@@ -59,7 +61,25 @@ impl<const N: usize> Perspective32Ramps<N> {
     }
 }
 
+impl<const N: usize> Perspective32Ramps<N> {
+    #[inline(always)]
+    pub(super) fn advance(&mut self) {
+        self.over_w.iter_mut().for_each(Ramp::<i32>::advance);
+        self.inverse.advance();
+    }
+
+    #[inline(always)]
+    pub(super) fn after(&self, count: i32) -> Self {
+        Perspective32Ramps {
+            over_w: each(&self.over_w, |ramp| ramp.after(count)),
+            inverse: self.inverse.after(count),
+        }
+    }
+}
+
 impl<const N: usize> Slopes<Perspective32<N>> for Perspective32Slopes<N> {
+    const DRAWS: bool = true;
+
     #[inline(always)]
     fn new(weights: &Weights, corners: [Perspective32<N>; 3]) -> Option<Self> {
         let [a, b, c] = corners.map(|corner| corner.0);
@@ -83,6 +103,18 @@ impl<const N: usize> Slopes<Perspective32<N>> for Perspective32Slopes<N> {
     fn values(&self, ramps: &Perspective32Ramps<N>) -> [i32; N] {
         ramps.values()
     }
+    /// A function of its own: inlined, what the rows need takes the registers.
+    #[inline(never)]
+    fn draw<F: Fragment<Varying = Perspective32<N>>>(&self, span: &Span, pixels: &mut [F::Pixel], fragment: &F) {
+        let ramps = Slopes::<Perspective32<N>>::ramps(self, (span.left, span.row));
+        each_pixel(
+            ramps,
+            Perspective32Ramps::values,
+            Perspective32::advance,
+            pixels,
+            fragment,
+        );
+    }
 }
 
 impl<const N: usize> Varying for Perspective32<N> {
@@ -91,10 +123,12 @@ impl<const N: usize> Varying for Perspective32<N> {
     type Ramps = Perspective32Ramps<N>;
     type Values = [i32; N];
 
+    const NO_PLANES: Self::Planes = ([Plane::NONE; N], [Plane::NONE]);
+
     #[inline]
-    fn planes(basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) -> Self::Planes {
-        let over_w = planes(basis, count, |i| corner(i).0.over_w);
-        (over_w, planes(basis, count, |i| [corner(i).0.inverse]))
+    fn lay((over_w, inverse): &mut Self::Planes, basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) {
+        lay(over_w, basis, count, |i| corner(i).0.over_w);
+        lay(inverse, basis, count, |i| [corner(i).0.inverse]);
     }
     #[inline]
     fn ramps((over_w, [inverse]): &Self::Planes, place: &Place) -> Perspective32Ramps<N> {
@@ -109,14 +143,10 @@ impl<const N: usize> Varying for Perspective32<N> {
     }
     #[inline(always)]
     fn advance(ramps: &mut Perspective32Ramps<N>) {
-        ramps.over_w.iter_mut().for_each(Ramp::<i32>::advance);
-        ramps.inverse.advance();
+        ramps.advance();
     }
     #[inline(always)]
-    fn after(ramps: &Perspective32Ramps<N>, count: i32) -> Perspective32Ramps<N> {
-        Perspective32Ramps {
-            over_w: each(&ramps.over_w, |ramp| ramp.after(count)),
-            inverse: ramps.inverse.after(count),
-        }
+    fn advance_by(ramps: &mut Perspective32Ramps<N>, count: i32) {
+        *ramps = ramps.after(count);
     }
 }

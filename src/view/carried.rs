@@ -1,7 +1,7 @@
 //! What vertices carry, mixed for the corners that clipping leaves.
 
 use super::{in_front, w_of};
-use crate::clip::{ClipCorner, Polygon};
+use crate::clip::{ClipCorner, Held};
 use crate::num::{Block, Scaled, Word};
 use crate::varying::{Color565, Linear, Linear32, LinearFan, Perspective, Perspective32, PerspectiveSpans, Varying};
 
@@ -413,11 +413,7 @@ pub(crate) struct Weigh<T> {
 }
 
 impl<T: Word> Weigh<T> {
-    pub(crate) fn new<const N: usize>(
-        polygon: &Polygon<ClipCorner<T>, N>,
-        vertex_w: [Scaled<T>; 3],
-        wants: Wants,
-    ) -> Self {
+    pub(crate) fn new(polygon: Held<'_, ClipCorner<T>>, vertex_w: [Scaled<T>; 3], wants: Wants) -> Self {
         let [a, b, c] = vertex_w;
         let affine = a == b && b == c;
         let mut magnitude = i32::MIN;
@@ -448,6 +444,17 @@ impl<T: Word> Weigh<T> {
         }
     }
 
+    /// What is kept of them, likewise.
+    #[inline(always)]
+    pub(super) fn shares_of<S: Shares>(&self, corner: &ClipCorner<T>) -> S {
+        S::of(&if size_of::<S>() > 0 {
+            self.shares(corner)
+        } else {
+            Weights::of_vertex(0)
+        })
+    }
+
+    #[inline(never)]
     fn shares(&self, corner: &ClipCorner<T>) -> Weights {
         let on_screen = if self.wants.screen || (self.wants.space && self.affine) {
             over_screen(corner, self.vertex_w)

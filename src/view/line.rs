@@ -4,14 +4,14 @@ use crate::num::Word;
 use crate::screen::{Shape, end};
 use crate::span::Corners;
 
-use super::{Carried, ProjectedCorner, Shares, Vertex, View, Weigh, in_clip_space, w_of};
+use super::{Carried, PlacedCorner, Shares, Vertex, View, Weigh, in_clip_space, w_of};
 use crate::clip::{Polygon, to_view};
 
 /// The two ends of a line on the screen and what they carry.
 #[derive(Debug)]
 pub struct ProjectedLine<V: Carried> {
     carried: [V::Vertex; 3],
-    ends: [ProjectedCorner<V::Shares>; 2],
+    ends: [(PlacedCorner, V::Shares); 2],
 }
 
 impl<V: Carried> Corners for ProjectedLine<V> {
@@ -21,7 +21,7 @@ impl<V: Carried> Corners for ProjectedLine<V> {
     }
     #[inline]
     fn position(&self, index: usize) -> (i32, i32) {
-        end(&self.ends, index).position
+        end(&self.ends, index).0.position
     }
 }
 
@@ -29,11 +29,11 @@ impl<V: Carried> Shape for ProjectedLine<V> {
     type Varying = V;
     #[inline]
     fn depth(&self, index: usize) -> i32 {
-        end(&self.ends, index).depth
+        end(&self.ends, index).0.depth
     }
     #[inline]
     fn varying(&self, index: usize) -> V {
-        V::mix(self.carried, &end(&self.ends, index).shares.weights())
+        V::mix(self.carried, &end(&self.ends, index).1.weights())
     }
 }
 
@@ -52,9 +52,8 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
     /// The example is [`draw::primitive_segment`](crate::draw::primitive_segment)'s.
     pub fn project_line<V: Carried>(&self, ends: &[Vertex<T, V::Vertex>; 2]) -> Option<ProjectedLine<V>> {
         let mut line = self.planes.clip(ends.each_ref().map(|v| v.position))?;
-        for corner in line.iter_mut() {
-            corner.position = self.projection.transform(corner.position);
-        }
+        line.slots()
+            .each(|corner| corner.position = self.projection.transform(corner.position));
         // A triangle whose third vertex has no weight: it may be the second once more.
         let [a, b] = ends;
         let mut vertex_w = [a, b, b].map(|v| w_of::<T>(self.projection.transform(v.position)));
@@ -65,9 +64,14 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
             vertex_w = [&a, &b, &b].map(|corner| w_of(corner.position));
             line = Polygon::of_vertices([a.position, b.position]);
         }
-        to_view(&mut line, &self.viewport, self.depth_range, self.behind)?;
-        let weigh = Weigh::new(&line, vertex_w, V::WANTS);
-        let end = |i| ProjectedCorner::new::<V, _, _>(&self.viewport, self.depth_range, &weigh, line.get(i)?);
+        to_view(&mut line.slots(), &self.viewport, self.depth_range, self.behind)?;
+        let weigh = Weigh::new(line.held(), vertex_w, V::WANTS);
+        let end = |i| {
+            let corner = line.get(i)?;
+            let (x, y, depth) = self.viewport.place(corner.position, self.depth_range)?;
+            let position = (x, y);
+            Some((PlacedCorner { position, depth }, weigh.shares_of(corner)))
+        };
         let ends = [end(0)?, end(1)?];
         Some(ProjectedLine { carried, ends })
     }

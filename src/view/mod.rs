@@ -8,7 +8,9 @@ mod stored;
 
 use core::cmp::Ordering;
 
-use crate::clip::{Behind, ClipCorner, DepthRange, Planes, Polygon, at_far, before_camera, is_beyond, to_view};
+use crate::clip::{
+    Behind, ClipCorner, DepthRange, Held, Planes, Polygon, Slots, at_far, before_camera, cut_by, is_beyond, to_view,
+};
 use crate::matrix::Matrix;
 use crate::num::{Block, Scaled, Word};
 use crate::screen::Shape;
@@ -122,8 +124,204 @@ pub struct Vertex<T, A> {
 #[derive(Debug, Clone)]
 pub struct Projected<V: Carried, const N: usize> {
     carried: [V::Vertex; 3],
-    first: ProjectedCorner<V::Shares>,
-    others: Polygon<ProjectedCorner<V::Shares>, N>,
+    corners: Polygon<PlacedCorner, N>,
+    /// What each corner has of the three vertices.
+    shares: Polygon<V::Shares, N>,
+}
+
+impl<V: Carried, const N: usize> Projected<V, N> {
+    /// No corners yet.
+    #[inline(always)]
+    fn nothing(carried: [V::Vertex; 3]) -> Self {
+        Projected {
+            carried,
+            corners: Polygon::default(),
+            shares: Polygon::default(),
+        }
+    }
+
+    /// The same to draw, whatever N is.
+    #[inline(always)]
+    pub(crate) fn shown(&self) -> Shown<'_, V> {
+        Shown {
+            carried: &self.carried,
+            corners: self.corners.held(),
+            shares: self.shares.held(),
+        }
+    }
+}
+
+/// A [`Projected`] with any N: what draws this is in a program once.
+#[derive(Debug)]
+pub(crate) struct Shown<'p, V: Carried> {
+    carried: &'p [V::Vertex; 3],
+    /// By themselves, what walks them is there once for all that is carried.
+    pub(crate) corners: Held<'p, PlacedCorner>,
+    shares: Held<'p, V::Shares>,
+}
+
+/// A corner of a [`Projected`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlacedCorner {
+    pub(crate) position: (i32, i32),
+    pub(crate) depth: i32,
+}
+
+impl Held<'_, PlacedCorner> {
+    /// Its [`doubled_area`].
+    #[inline(never)]
+    pub(crate) fn area(self) -> i64 {
+        doubled_area(&self)
+    }
+}
+
+impl Corners for Held<'_, PlacedCorner> {
+    #[inline]
+    fn count(&self) -> usize {
+        self.len()
+    }
+    #[inline]
+    fn position(&self, index: usize) -> (i32, i32) {
+        self.get(index).map_or((0, 0), |corner| corner.position)
+    }
+}
+
+impl<V: Carried> Corners for Shown<'_, V> {
+    #[inline]
+    fn count(&self) -> usize {
+        self.corners.len()
+    }
+    #[inline]
+    fn position(&self, index: usize) -> (i32, i32) {
+        self.corners.position(index)
+    }
+}
+
+impl<V: Carried> Shape for Shown<'_, V> {
+    type Varying = V;
+    #[inline]
+    fn depth(&self, index: usize) -> i32 {
+        self.corners.get(index).map_or(0, |corner| corner.depth)
+    }
+    #[inline(never)]
+    fn varying(&self, index: usize) -> V {
+        let shares = self.shares.get(index).map(Shares::weights);
+        V::mix(*self.carried, &shares.unwrap_or_else(|| Weights::of_vertex(0)))
+    }
+}
+
+impl<V: Carried, const N: usize> Corners for Projected<V, N> {
+    #[inline]
+    fn count(&self) -> usize {
+        self.shown().count()
+    }
+    #[inline]
+    fn position(&self, index: usize) -> (i32, i32) {
+        self.shown().position(index)
+    }
+}
+
+impl<V: Carried, const N: usize> Shape for Projected<V, N> {
+    type Varying = V;
+    #[inline]
+    fn depth(&self, index: usize) -> i32 {
+        self.shown().depth(index)
+    }
+    #[inline]
+    fn varying(&self, index: usize) -> V {
+        self.shown().varying(index)
+    }
+}
+
+/// What is left of a triangle, one polygon after the other: where there are several, which is seldom, all before the next are
+/// found again and passed over, so that nothing is kept while one is drawn.
+pub(crate) struct Left<V: Carried, const N: usize> {
+    /// How many have been drawn.
+    drawn: usize,
+    /// How many have been found, counted from the first again each time.
+    found: usize,
+    /// The next of them; without corners, where it is not drawn.
+    projected: Projected<V, N>,
+}
+
+impl<V: Carried, const N: usize> Left<V, N> {
+    /// Nothing drawn, of a triangle whose vertices carry that.
+    #[inline(always)]
+    pub(crate) fn new(carried: [V::Vertex; 3]) -> Self {
+        Left {
+            drawn: 0,
+            found: 0,
+            projected: Projected::nothing(carried),
+        }
+    }
+
+    /// To look for the next, from the first on.
+    #[inline(always)]
+    pub(crate) fn next(&mut self) -> Next<'_, V> {
+        let Projected {
+            carried,
+            corners,
+            shares,
+        } = &mut self.projected;
+        Next {
+            carried,
+            places: Places {
+                drawn: self.drawn,
+                found: &mut self.found,
+                corners: corners.slots(),
+                shares: shares.slots(),
+            },
+        }
+    }
+
+    /// The next, unless it is not drawn.
+    #[inline(always)]
+    pub(crate) fn projected(&self) -> Option<&Projected<V, N>> {
+        (!self.projected.corners.is_empty()).then_some(&self.projected)
+    }
+
+    /// Whether there is another.
+    #[inline(always)]
+    pub(crate) fn go_on(&mut self) -> bool {
+        self.drawn = self.drawn.wrapping_add(1);
+        let more = self.drawn < self.found;
+        self.found = 0;
+        more
+    }
+}
+
+/// A [`Left`] with any N, while the next is looked for.
+pub(crate) struct Next<'l, V: Carried> {
+    carried: &'l mut [V::Vertex; 3],
+    places: Places<'l, V::Shares>,
+}
+
+impl<V: Carried> Next<'_, V> {
+    /// What is found from here on carries that, until the one is found.
+    #[inline]
+    fn carry(&mut self, carried: &[V::Vertex; 3]) {
+        if *self.places.found <= self.places.drawn {
+            *self.carried = *carried;
+        }
+    }
+}
+
+/// The same without what the vertices carry.
+pub(crate) struct Places<'l, S> {
+    drawn: usize,
+    found: &'l mut usize,
+    corners: Slots<'l, PlacedCorner>,
+    shares: Slots<'l, S>,
+}
+
+impl<S: Shares> Places<'_, S> {
+    /// Whether what is found now is the one.
+    #[inline]
+    fn is_next(&mut self) -> bool {
+        let next = *self.found == self.drawn;
+        *self.found = self.found.wrapping_add(1);
+        next
+    }
 }
 
 /// A corner that clipping has made, and what a vertex in its place would carry.
@@ -156,60 +354,14 @@ struct ToFar<T, A> {
     corner: Option<Made<T, A>>,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct ProjectedCorner<S> {
-    position: (i32, i32),
-    depth: i32,
-    /// What it has of the three vertices.
-    shares: S,
-}
-
-impl<S: Shares> ProjectedCorner<S> {
-    /// A corner of a polygon, or of a line, that lies in the view.
-    #[inline]
-    fn new<V: Carried<Shares = S>, T: Word, W: Word>(
-        viewport: &Viewport<W>,
-        range: DepthRange,
-        weigh: &Weigh<T>,
-        corner: &ClipCorner<T>,
-    ) -> Option<Self> {
-        let (x, y, depth) = viewport.place(corner.position, range)?;
-        Some(ProjectedCorner {
-            position: (x, y),
-            depth,
-            shares: S::of(&weigh.weights::<V>(corner)),
-        })
-    }
-}
-
-impl<V: Carried, const N: usize> Projected<V, N> {
-    #[inline]
-    fn corner(&self, index: usize) -> &ProjectedCorner<V::Shares> {
-        self.others.get(index.wrapping_sub(1)).unwrap_or(&self.first)
-    }
-}
-
-impl<V: Carried, const N: usize> Corners for Projected<V, N> {
-    #[inline]
-    fn count(&self) -> usize {
-        1 + self.others.len()
-    }
-    #[inline]
-    fn position(&self, index: usize) -> (i32, i32) {
-        self.corner(index).position
-    }
-}
-
-impl<V: Carried, const N: usize> Shape for Projected<V, N> {
-    type Varying = V;
-    #[inline]
-    fn depth(&self, index: usize) -> i32 {
-        self.corner(index).depth
-    }
-    #[inline(never)]
-    fn varying(&self, index: usize) -> V {
-        V::mix(self.carried, &self.corner(index).shares.weights())
-    }
+/// A [`View`] with any N: what works with this is in a program once.
+pub(crate) struct Lens<'v, T: Word, W> {
+    projection: &'v Matrix<T>,
+    planes: &'v [Block<T, 4>],
+    viewport: &'v Viewport<W>,
+    depth_range: DepthRange,
+    behind: Behind,
+    cull: Cull,
 }
 
 impl<T: Word, W: Word, const N: usize> View<T, W, N> {
@@ -224,57 +376,82 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
     ///   over the screen only from there on: along the edges to the far plane, which is cut next, and then in each triangle
     ///   of the fan by itself. What else is cut away does not change what stays.
     pub fn project<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3], mut draw: impl FnMut(&Projected<V, N>)) {
-        let mut projected = None;
-        if !self.project_one(vertices, &mut projected) {
-            self.project_all::<V>(vertices, &mut draw);
-        } else if let Some(projected) = &projected {
-            draw(projected);
+        let mut left = Left::new(vertices.each_ref().map(|v| v.carried));
+        loop {
+            self.project_next(vertices, &mut left);
+            if let Some(projected) = left.projected() {
+                draw(projected);
+            }
+            if !left.go_on() {
+                return;
+            }
         }
     }
 
-    /// What is left, where that is one polygon or nothing; whether it is. A function of its own, whose stack is free again when
-    /// the polygon is drawn.
+    /// The next of what is left. A function of its own, whose stack is free again when that is drawn.
     #[inline(never)]
-    fn project_one<V: Carried>(
-        &self,
-        vertices: &[Vertex<T, V::Vertex>; 3],
-        projected: &mut Option<Projected<V, N>>,
-    ) -> bool {
-        if V::WANTS.fan && !self.planes.is_empty() {
-            return false;
+    fn project_next<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3], left: &mut Left<V, N>) {
+        let positions = vertices.each_ref().map(|v| v.position);
+        let mut polygon = Polygon::<_, N>::default();
+        let (lens, mut polygon, mut next) = (self.lens(), polygon.slots(), left.next());
+        if !V::WANTS.screen {
+            // Values stay those of the vertices, whatever is cut: what follows is the same for any.
+            lens.next(&positions, V::WANTS, &mut polygon, &mut next.places);
+            return;
         }
-        let mut polygon = Polygon::of_vertices(vertices.each_ref().map(|v| v.position));
-        let vertex_w = self.clip(vertices, &mut polygon);
-        if self.is_across::<V>(vertex_w) || self.is_through_infinity(&polygon) {
-            return false;
-        }
-        let carried = vertices.each_ref().map(|v| v.carried);
-        self.finish(&mut polygon, vertex_w, carried, projected);
-        true
-    }
-
-    /// All that is left, one triangle of a fan after the other.
-    #[cold]
-    #[inline(never)]
-    fn project_all<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3], draw: &mut impl FnMut(&Projected<V, N>)) {
-        let mut polygon = Polygon::of_vertices(vertices.each_ref().map(|v| v.position));
-        let vertex_w = self.clip(vertices, &mut polygon);
+        let vertex_w = lens.clip(&positions, &mut polygon);
         let carried = vertices.each_ref().map(|v| v.carried);
         if V::WANTS.fan && !self.planes.is_empty() {
-            self.fan::<V>(&polygon, carried, draw);
+            lens.fan::<V>(&polygon, &carried, &mut next);
         } else {
-            self.cut::<V>(&mut polygon, vertex_w, carried, draw);
+            lens.cut::<V>(&mut polygon, vertex_w, &carried, &mut next);
         }
+    }
+
+    #[inline(always)]
+    pub(crate) fn lens(&self) -> Lens<'_, T, W> {
+        Lens {
+            projection: &self.projection,
+            planes: self.planes.as_slice(),
+            viewport: &self.viewport,
+            depth_range: self.depth_range,
+            behind: self.behind,
+            cull: self.cull,
+        }
+    }
+}
+
+impl<T: Word, W: Word> Lens<'_, T, W> {
+    /// The next of what is left of a triangle with values that are linear in space, or none.
+    #[inline(never)]
+    fn next<S: Shares>(
+        &self,
+        positions: &[Block<T, 4>; 3],
+        wants: Wants,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
+        places: &mut Places<'_, S>,
+    ) {
+        let vertex_w = self.clip(positions, polygon);
+        self.cut_at_infinity(polygon, vertex_w, wants, places);
     }
 
     /// Leaves of a triangle what user planes keep, and takes it to clip space; w of the vertices.
-    #[inline(always)]
-    fn clip<A>(&self, vertices: &[Vertex<T, A>; 3], polygon: &mut Polygon<ClipCorner<T>, N>) -> [Scaled<T>; 3] {
-        self.planes.cut(polygon);
-        for corner in polygon.iter_mut() {
-            corner.position = self.projection.transform(corner.position);
+    #[inline(never)]
+    fn clip(&self, positions: &[Block<T, 4>; 3], polygon: &mut Slots<'_, ClipCorner<T>>) -> [Scaled<T>; 3] {
+        for corner in ClipCorner::of_vertices(*positions) {
+            polygon.push(corner);
         }
-        vertices.each_ref().map(|v| w_of(self.projection.transform(v.position)))
+        cut_by(self.planes, polygon);
+        polygon.each(|corner| corner.position = self.projection.transform(corner.position));
+        let mut vertex_w = [Scaled::ZERO; 3];
+        for (i, (w, &position)) in vertex_w.iter_mut().zip(positions).enumerate() {
+            // Without planes its corners are the vertices.
+            *w = match polygon.held().get(i) {
+                Some(corner) if self.planes.is_empty() => w_of(corner.position),
+                _ => w_of(self.projection.transform(position)),
+            };
+        }
+        vertex_w
     }
 
     /// Whether a triangle has to be cut [where it passes the camera](Self::across).
@@ -285,27 +462,43 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
 
     /// Whether a polygon is no convex one on the screen.
     #[inline]
-    fn is_through_infinity(&self, polygon: &Polygon<ClipCorner<T>, N>) -> bool {
-        self.behind == Behind::Divide && polygon.len() > 3 && changes_sign(polygon)
+    fn is_through_infinity(&self, polygon: &Slots<'_, ClipCorner<T>>) -> bool {
+        self.behind == Behind::Divide && polygon.held().len() > 3 && changes_sign(polygon.held())
     }
 
     /// What user planes have left.
-    fn cut<V: Carried>(
+    pub(crate) fn cut<V: Carried>(
         &self,
-        polygon: &mut Polygon<ClipCorner<T>, N>,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
         vertex_w: [Scaled<T>; 3],
-        carried: [V::Vertex; 3],
-        draw: &mut impl FnMut(&Projected<V, N>),
+        carried: &[V::Vertex; 3],
+        next: &mut Next<'_, V>,
     ) {
         if self.is_across::<V>(vertex_w) {
-            self.across::<V>(polygon, vertex_w, carried, draw);
-        } else if self.is_through_infinity(polygon) {
-            for i in 2..polygon.len() {
-                let corners = [0, i - 1, i].into_iter().filter_map(|i| polygon.get(i));
-                self.finished(&mut corners.copied().collect(), vertex_w, carried, draw);
-            }
+            self.across::<V>(polygon, vertex_w, carried, next);
         } else {
-            self.finished(polygon, vertex_w, carried, draw);
+            next.carry(carried);
+            self.cut_at_infinity(polygon, vertex_w, V::WANTS, &mut next.places);
+        }
+    }
+
+    /// The same, by a fan if need be.
+    #[inline(never)]
+    fn cut_at_infinity<S: Shares>(
+        &self,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
+        vertex_w: [Scaled<T>; 3],
+        wants: Wants,
+        places: &mut Places<'_, S>,
+    ) {
+        if !self.is_through_infinity(polygon) {
+            self.finish(polygon, vertex_w, wants, places);
+            return;
+        }
+        for i in 2..polygon.held().len() {
+            let corners = [0, i - 1, i].into_iter().filter_map(|i| polygon.held().get(i));
+            let mut part: Polygon<_, 0> = corners.copied().collect();
+            self.finish(&mut part.slots(), vertex_w, wants, places);
         }
     }
 
@@ -314,30 +507,30 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
     #[inline(never)]
     fn across<V: Carried>(
         &self,
-        polygon: &mut Polygon<ClipCorner<T>, N>,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
         vertex_w: [Scaled<T>; 3],
-        carried: [V::Vertex; 3],
-        draw: &mut impl FnMut(&Projected<V, N>),
+        carried: &[V::Vertex; 3],
+        next: &mut Next<'_, V>,
     ) {
-        if before_camera(polygon, &self.viewport, self.depth_range).is_none() {
+        if before_camera(polygon, self.viewport, self.depth_range).is_none() {
             return;
         }
         let made = |corner: &ClipCorner<T>| Made {
             position: corner.position,
             size: whole(corner.weights),
-            carried: V::between(carried, &at_cut(corner, vertex_w)),
+            carried: V::between(*carried, &at_cut(corner, vertex_w)),
         };
         let mut fan = None;
         let mut next = |corner| match &mut fan {
             None => fan = Some((corner, None)),
             Some((_, second @ None)) => *second = Some(corner),
             Some((first, Some(second))) => {
-                self.part::<V>([first, second, &corner], draw);
+                self.part::<V>([first, second, &corner], next);
                 *second = corner;
             }
         };
-        let ends = polygon.iter().skip(1).chain(polygon.get(0));
-        for (a, b) in polygon.iter().zip(ends) {
+        let ends = polygon.held().iter().skip(1).chain(polygon.held().get(0));
+        for (a, b) in polygon.held().iter().zip(ends) {
             let (start, end) = (made(a), made(b));
             let crossing = self.to_far::<V>(&start, &end);
             if crossing.stays {
@@ -351,10 +544,11 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
 
     /// A triangle of corners that clipping has made.
     #[inline(never)]
-    fn part<V: Carried>(&self, corners: [&Made<T, V::Vertex>; 3], draw: &mut impl FnMut(&Projected<V, N>)) {
-        let mut polygon = Made::corners(corners).into_iter().collect();
+    fn part<V: Carried>(&self, corners: [&Made<T, V::Vertex>; 3], next: &mut Next<'_, V>) {
+        let mut polygon: Polygon<_, 0> = Made::corners(corners).into_iter().collect();
         let w = corners.map(Made::w);
-        self.finished(&mut polygon, w, corners.map(|corner| corner.carried), draw);
+        next.carry(&corners.map(|corner| corner.carried));
+        self.finish(&mut polygon.slots(), w, V::WANTS, &mut next.places);
     }
 
     /// Cuts off what is beyond the far plane of an edge, values being linear over the screen along it.
@@ -382,73 +576,69 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
 
     /// Every triangle of the fan as if it had been given: its corners' values are linear in clip space, and what is cut from
     /// here on is linear over the screen.
-    fn fan<V: Carried>(
-        &self,
-        polygon: &Polygon<ClipCorner<T>, N>,
-        carried: [V::Vertex; 3],
-        draw: &mut impl FnMut(&Projected<V, N>),
-    ) {
-        for i in 2..polygon.len() {
-            let (Some(first), Some(second), Some(third)) = (polygon.get(0), polygon.get(i - 1), polygon.get(i)) else {
+    fn fan<V: Carried>(&self, polygon: &Slots<'_, ClipCorner<T>>, carried: &[V::Vertex; 3], next: &mut Next<'_, V>) {
+        for i in 2..polygon.held().len() {
+            let (Some(first), Some(second), Some(third)) =
+                (polygon.held().get(0), polygon.held().get(i - 1), polygon.held().get(i))
+            else {
                 continue;
             };
             let corners = [first, second, third];
-            let values = corners.map(|corner| V::between(carried, &in_clip_space(corner)));
-            let mut given = Polygon::of_vertices(corners.map(|corner| corner.position));
+            let values = corners.map(|corner| V::between(*carried, &in_clip_space(corner)));
+            let mut given = Polygon::<_, 0>::of_vertices(corners.map(|corner| corner.position));
             let w = corners.map(|corner| w_of(corner.position));
-            self.cut::<V>(&mut given, w, values, draw);
+            self.cut::<V>(&mut given.slots(), w, &values, next);
         }
     }
 
-    /// From clip space to the screen, and drawn.
-    fn finished<V: Carried>(
-        &self,
-        polygon: &mut Polygon<ClipCorner<T>, N>,
-        vertex_w: [Scaled<T>; 3],
-        carried: [V::Vertex; 3],
-        draw: &mut impl FnMut(&Projected<V, N>),
-    ) {
-        let mut projected = None;
-        self.finish(polygon, vertex_w, carried, &mut projected);
-        if let Some(projected) = &projected {
-            draw(projected);
-        }
-    }
-
-    /// From clip space to the screen; nothing where it is not drawn.
+    /// From clip space to the screen, if it is the next; without corners where it is not drawn.
     #[inline(never)]
-    fn finish<V: Carried>(
+    fn finish<S: Shares>(
         &self,
-        polygon: &mut Polygon<ClipCorner<T>, N>,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
         vertex_w: [Scaled<T>; 3],
-        carried: [V::Vertex; 3],
-        projected: &mut Option<Projected<V, N>>,
+        wants: Wants,
+        places: &mut Places<'_, S>,
+    ) {
+        if !places.is_next() {
+            return;
+        }
+        places.corners.clear();
+        places.shares.clear();
+        if to_view(polygon, self.viewport, self.depth_range, self.behind).is_some() {
+            self.place(polygon.held(), vertex_w, wants, places);
+        }
+    }
+
+    /// On the screen, what lies in the view. A function of its own, whose stack clipping does not add to.
+    #[inline(never)]
+    fn place<S: Shares>(
+        &self,
+        polygon: Held<'_, ClipCorner<T>>,
+        vertex_w: [Scaled<T>; 3],
+        wants: Wants,
+        Places { corners, shares, .. }: &mut Places<'_, S>,
     ) {
         let range = self.depth_range;
-        if to_view(polygon, &self.viewport, range, self.behind).is_none() {
-            return;
+        let weigh = Weigh::new(polygon, vertex_w, wants);
+        for corner in polygon.iter() {
+            let Some((x, y, depth)) = self.viewport.place(corner.position, range) else {
+                continue;
+            };
+            corners.push(PlacedCorner {
+                position: (x, y),
+                depth,
+            });
+            shares.push(weigh.shares_of(corner));
         }
-        let weigh = Weigh::new(polygon, vertex_w, V::WANTS);
-        let mut corners = polygon
-            .iter()
-            .filter_map(|corner| ProjectedCorner::new::<V, _, _>(&self.viewport, range, &weigh, corner));
-        let Some(first) = corners.next() else {
-            return;
-        };
-        let polygon = projected.insert(Projected {
-            carried,
-            first,
-            others: Polygon::default(),
-        });
-        corners.for_each(|corner| polygon.others.push(corner));
-        if !self.cull.keeps(doubled_area(polygon)) {
-            *projected = None;
+        if !self.cull.keeps(corners.held().area()) {
+            corners.clear();
         }
     }
 }
 
 /// Whether some corners have w < 0 and some w > 0.
-fn changes_sign<T: Word, const N: usize>(polygon: &Polygon<ClipCorner<T>, N>) -> bool {
+fn changes_sign<T: Word>(polygon: Held<'_, ClipCorner<T>>) -> bool {
     let any = |wanted: Ordering| {
         polygon.iter().any(|corner| {
             let [.., w] = corner.position.mantissas();

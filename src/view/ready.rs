@@ -1,7 +1,7 @@
 //! Vertices made once: on the screen before any triangle asks for them.
 
 use super::carried::at_vertices;
-use super::{Carried, Facing, Projected, View, Weights, w_of};
+use super::{Carried, Facing, Left, Projected, View, Weights, w_of};
 use crate::clip::{Behind, Polygon, ScreenPlanes, is_in_volume};
 use crate::edge::first_row;
 use crate::mesh::Normalized;
@@ -251,7 +251,7 @@ impl<T: Word, W: Word> View<T, W, 0> {
                     draw(Assembled::Triangle(&triangle));
                 }
             }
-            Way::Across => self.clip_triangle::<V>(vertices, &mut |polygon| draw(Assembled::Polygon(polygon))),
+            Way::Across => self.clip_triangle::<V>(vertices, |polygon| draw(Assembled::Polygon(polygon))),
         }
     }
 
@@ -287,19 +287,35 @@ impl<T: Word, W: Word> View<T, W, 0> {
         cut == 0
     }
 
-    #[cold]
-    #[inline(never)]
+    /// Calls `draw` with what is left of a triangle that has to be clipped.
+    #[inline]
     pub(crate) fn clip_triangle<V: Carried>(
         &self,
         vertices: [&ScreenVertex<T, V::Vertex>; 3],
-        draw: &mut impl FnMut(&Projected<V, 0>),
+        mut draw: impl FnMut(&Projected<V, 0>),
     ) {
-        let mut polygon = Polygon::of_vertices(vertices.map(ScreenVertex::position));
-        self.cut::<V>(
-            &mut polygon,
+        let mut left = Left::new(vertices.map(|v| v.carried));
+        loop {
+            self.clip_next(vertices, &mut left);
+            if let Some(projected) = left.projected() {
+                draw(projected);
+            }
+            if !left.go_on() {
+                return;
+            }
+        }
+    }
+
+    /// The next of that.
+    #[cold]
+    #[inline(never)]
+    fn clip_next<V: Carried>(&self, vertices: [&ScreenVertex<T, V::Vertex>; 3], left: &mut Left<V, 0>) {
+        let mut polygon = Polygon::<_, 0>::of_vertices(vertices.map(ScreenVertex::position));
+        self.lens().cut::<V>(
+            &mut polygon.slots(),
             vertices.map(|v| w_of(v.clip)),
-            vertices.map(|v| v.carried),
-            draw,
+            &vertices.map(|v| v.carried),
+            &mut left.next(),
         );
     }
 }

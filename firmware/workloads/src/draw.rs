@@ -22,8 +22,8 @@ pub type GouraudTriangle = [Corner<Color565>; 3];
 /// A textured triangle in perspective.
 pub type TexturedTriangle = [Corner<Perspective32<2>>; 3];
 
-/// Perspective to within half a texel: 116/256 by subdivision, the rest is left to arithmetic.
-pub type HalfTexel = PerspectiveSpans<2, 116>;
+/// Perspective to within half a texel: 92/256 by subdivision, the rest is left to arithmetic.
+pub type HalfTexel = PerspectiveSpans<2, 92>;
 
 /// A textured triangle in perspective, divided at the ends of subspans.
 pub type SpannedTriangle = [Corner<HalfTexel>; 3];

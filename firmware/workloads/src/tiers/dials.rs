@@ -42,15 +42,11 @@ exact_but! {
     Affine, perspective N Linear32<N>
 }
 exact_but! {
-    /// Divided at the ends of subspans that keep the error below half a texel.
+    /// By a reciprocal from a table, or linear where that is within half a texel.
     HalfTexel, perspective N PerspectiveSpans<N, 128>
 }
 exact_but! {
-    /// Below two texels.
-    TwoTexels, perspective N PerspectiveSpans<N, 512>
-}
-exact_but! {
-    /// Below an eighth of a texel.
+    /// The same within an eighth of a texel.
     EighthTexel, perspective N PerspectiveSpans<N, 32>
 }
 exact_but! {

@@ -53,7 +53,7 @@ const fn case<P>(scene: &'static str, dial: &'static str, draw: Draw<P>) -> Case
 pub const TIERS: [&str; 3] = ["fast", "balanced", "exact"];
 
 /// Every scene in every tier, and with every dial that it has turned alone.
-pub const fn cases<P: Output>() -> [Case<P>; 43] {
+pub const fn cases<P: Output>() -> [Case<P>; 41] {
     [
         case("flat", "fast", mesh::flat::<Fast, P>),
         case("flat", "balanced", mesh::flat::<Balanced, P>),
@@ -71,8 +71,6 @@ pub const fn cases<P: Output>() -> [Case<P>; 43] {
         case("textured", "exact", textured::corridor::<Exact, P>),
         case("textured", "32-bit words", textured::corridor::<dials::Narrow, P>),
         case("textured", "1/8 texel", textured::corridor::<dials::EighthTexel, P>),
-        case("textured", "1/2 texel", textured::corridor::<dials::HalfTexel, P>),
-        case("textured", "2 texels", textured::corridor::<dials::TwoTexels, P>),
         case("textured", "affine", textured::corridor::<dials::Affine, P>),
         case("lit", "fast", lit::per_pixel::<Fast, P>),
         case("lit", "balanced", lit::per_pixel::<Balanced, P>),
