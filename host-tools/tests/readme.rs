@@ -100,7 +100,11 @@ fn the_workloads_are_the_stored_ones() {
             "textured in perspective with depth, a division per pixel",
             &per_pixel,
         ),
-        ("W3_spans", "the same by subspans within half a texel", &per_pixel),
+        (
+            "W3_spans",
+            "the same within half a texel, without a division",
+            &per_pixel,
+        ),
         ("W4", "triangles of 10 px, Gouraud with depth, each", &per_triangle),
         (
             "W5",

@@ -302,11 +302,11 @@ fn of_shape(sorted: &Sorted<'_>, kind: &Kind, work: &Work, strips: f64) -> f64 {
     let values = kind.values as f64;
     let depth = if sorted.drawing.depth.is_some() { 1.0 } else { 0.0 };
     let (per_strip, per_span, per_sample) = match kind.varying {
-        Varying::Nothing => (430.0 + 300.0 * depth, 50.0, 1.0 + 8.0 * depth),
+        Varying::Nothing => (500.0 + 300.0 * depth, 80.0, 1.0 + 8.0 * depth),
         Varying::Linear => (
             430.0 + 430.0 * (values + depth),
-            60.0 + 30.0 * values,
-            8.0 + 4.0 * values,
+            100.0 + 60.0 * values,
+            9.0 + 5.0 * values,
         ),
         Varying::Perspective => (
             800.0 + 600.0 * (values + depth),

@@ -44,8 +44,8 @@ pub enum Perspective {
     Exact,
     /// Divided at every pixel, in words of 32 bits.
     Narrow,
-    /// Divided at the ends of subspans, so that texture coordinates are within an eighth of a texel more and colours within an
-    /// eighth of a level, in words of 32 bits.
+    /// By a reciprocal from a table of 1024 at every pixel, or linear where that is within an eighth of a texel or of a level, in
+    /// words of 32 bits.
     Spans,
     /// Linear over the screen: right where all corners are equally far away.
     Affine,

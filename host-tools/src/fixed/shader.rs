@@ -12,7 +12,7 @@ use super::Pixel;
 use super::dials::{self, Dials};
 use crate::emit::log::Read;
 
-/// What subspans may add to a value, in units of 2^8: an eighth of a texel, or of a level, in units of 2^-16. That of the
+/// What being linear may add to a value, in units of 2^8: an eighth of a texel, or of a level, in units of 2^-16. That of the
 /// core's own tier ([`fixel::quality::Fast`]).
 pub const BOUND: u32 = 32;
 

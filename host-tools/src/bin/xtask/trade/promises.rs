@@ -9,8 +9,8 @@ use super::points::{MACHINES, Point, Sweep};
 
 /// Scenes in which every tier must be on the front of these machines.
 const TRADES: [&str; 3] = ["gouraud", "textured", "lit"];
-/// Where a tier is beaten all the same. A core that divides as fast as it multiplies draws textures with a division at every
-/// pixel sooner than by subspans: balanced is both nearer and cheaper there. Some three points must be on the front even so.
+/// Where a tier is beaten all the same. A core that divides in one instruction divides at every pixel sooner than it looks up a
+/// reciprocal: balanced is both nearer and cheaper there. Some three points must be on the front even so.
 const BEATEN: (&str, &str, &str) = ("textured", "m4", "fast");
 /// Scenes in which the fast tier must cost at most half of the exact one on Cortex-M0.
 const HALVED: [&str; 2] = ["textured", "lit"];
