@@ -264,6 +264,14 @@ impl Plane {
         }
     }
 
+    /// The negative of each value.
+    #[inline(never)]
+    pub(crate) fn negate(&mut self) {
+        (self.value, self.x, self.y) = (self.value.wrapping_neg(), self.x.wrapping_neg(), self.y.wrapping_neg());
+        self.narrow_step = self.narrow_step.wrapping_neg();
+        self.range = (self.range.1.saturating_neg(), self.range.0.saturating_neg());
+    }
+
     /// [`Basis::plane`] of these.
     #[inline(never)]
     pub(crate) fn settle(&mut self, basis: &Basis) {

@@ -7,7 +7,7 @@ mod triangles;
 use std::cell::Cell;
 
 use fixel::span::doubled_area;
-use fixel::varying::{Linear32, Perspective, PerspectiveSpans};
+use fixel::varying::{Linear32, Perspective, Perspective32, PerspectiveSpans, Varying};
 use fixel::window::Window;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -125,6 +125,22 @@ proptest! {
         let inside = |&(x, y): &(i32, i32)| part.contains((x, y));
         let whole: Vec<_> = values::<i32, _>(&shape, case.window).into_iter().filter(|(at, _)| inside(at)).collect();
         prop_assert_eq!(whole, values::<i32, _>(&shape, part));
+    }
+
+    /// Behind the camera, where both numbers of a quotient are negative, values are what they are before it.
+    #[test]
+    fn the_sign_of_w_makes_no_difference((case, texels, inverses) in textured()) {
+        let turned = inverses.map(|inverse: i32| -inverse);
+        fn of<V: Varying<Values = [i32; 1]> + From<Perspective<1>>>(case: &Case, texels: [i32; 3], inverses: [i32; 3]) -> Vec<((i32, i32), [i32; 1])> {
+            let corners: [V; 3] = [0, 1, 2].map(|i| {
+                let Perspective { over_w: [over_w], .. } = Perspective::new([texels[i]], inverses[i].abs());
+                let over_w = [if inverses[i] < 0 { -over_w } else { over_w }];
+                Perspective { over_w, inverse: inverses[i], values: [texels[i]] }.into()
+            });
+            values::<i32, _>(&shape(case.corners, corners), case.window)
+        }
+        prop_assert_eq!(of::<Half>(&case, texels, turned), of::<Half>(&case, texels, inverses));
+        prop_assert_eq!(of::<Perspective32<1>>(&case, texels, turned), of::<Perspective32<1>>(&case, texels, inverses));
     }
 
     /// With the same w at all corners nothing is divided.

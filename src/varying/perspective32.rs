@@ -48,6 +48,25 @@ pub struct Perspective32Ramps<const N: usize> {
     pub(super) inverse: Ramp<i32>,
 }
 
+/// −1 where all of 1/w are negative, else 0: behind the camera a value is the quotient of two numbers that are both negative.
+#[inline(always)]
+pub(super) fn sign([a, b, c]: [i32; 3]) -> i32 {
+    (a & b & c) >> 31
+}
+
+impl<const N: usize> Perspective<N> {
+    /// The same quotients, of numbers of the other sign where `sign` is −1.
+    #[inline(always)]
+    pub(super) fn turned(&self, sign: i32) -> Self {
+        let turned = |v: i32| (v ^ sign).wrapping_sub(sign);
+        Perspective {
+            over_w: each(&self.over_w, |&v| turned(v)),
+            inverse: turned(self.inverse),
+            values: self.values,
+        }
+    }
+}
+
 impl<const N: usize> Perspective32Ramps<N> {
     #[inline(always)]
     pub(super) fn values(&self) -> [i32; N] {
@@ -83,6 +102,8 @@ impl<const N: usize> Slopes<Perspective32<N>> for Perspective32Slopes<N> {
     #[inline(always)]
     fn new(weights: &Weights, corners: [Perspective32<N>; 3]) -> Option<Self> {
         let [a, b, c] = corners.map(|corner| corner.0);
+        let sign = sign([a.inverse, b.inverse, c.inverse]);
+        let [a, b, c] = [a, b, c].map(|corner| corner.turned(sign));
         let mut over_w = [Slope::default(); N];
         for (slope, ((&a, &b), &c)) in over_w.iter_mut().zip(a.over_w.iter().zip(&b.over_w).zip(&c.over_w)) {
             *slope = weights.slope([a, b, c]);
@@ -129,6 +150,9 @@ impl<const N: usize> Varying for Perspective32<N> {
     fn lay((over_w, inverse): &mut Self::Planes, basis: &Basis, count: usize, corner: impl Fn(usize) -> Self) {
         lay(over_w, basis, count, |i| corner(i).0.over_w);
         lay(inverse, basis, count, |i| [corner(i).0.inverse]);
+        if inverse.iter().all(|plane| plane.range().1 < 0) {
+            over_w.iter_mut().chain(inverse).for_each(Plane::negate);
+        }
     }
     #[inline]
     fn ramps((over_w, [inverse]): &Self::Planes, place: &Place) -> Perspective32Ramps<N> {

@@ -3,6 +3,7 @@
 use core::hint::black_box;
 use core::mem;
 
+use super::perspective32::sign;
 use super::{Perspective, Perspective32, Perspective32Ramps, Varying, each, each_pixel};
 use crate::fragment::Fragment;
 use crate::gradient::{Basis, Place, Plane, Ramp};
@@ -73,6 +74,15 @@ impl<const N: usize> SpansSlopes<N> {
     /// A function of its own: the same for all that is drawn.
     #[inline(never)]
     fn set_up(weights: &Weights, corners: &[Perspective<N>; 3], bound: Bound) -> Self {
+        let [a, b, c] = corners;
+        let sign = sign([a.inverse, b.inverse, c.inverse]);
+        let turned;
+        let corners = if sign == 0 {
+            corners
+        } else {
+            turned = [a.turned(sign), b.turned(sign), c.turned(sign)];
+            &turned
+        };
         let [a, b, c] = corners;
         let inverses = [a.inverse, b.inverse, c.inverse];
         let (least, most) = inverses
