@@ -73,7 +73,7 @@
 //! | linear varyings | the user's units in an `i32` ([`gradient`]) | a unit per pixel along a span, never outside the corners' range |
 //! | colours for RGB565 | two channels a word ([`varying::Color565`]) | within a level of the exact value |
 //! | varyings in perspective | as linear ones, divided per pixel | see [`varying::Perspective`] |
-//! | the same in words of 32 bits | divided [per pixel](varying::Perspective32) or [per subspan](varying::PerspectiveSpans) | stated there, or chosen |
+//! | the same in words of 32 bits | divided [per pixel](varying::Perspective32) or [by a table](varying::PerspectiveSpans) | stated there, or chosen |
 //! | colours with alpha | 2^-28, straight, ±8 times full ([`blend::Rgba`]) | half a unit + 2^-29 of the two colours' distance |
 //! | sRGB | 2^-16 level ([`srgb`]) | 0.0002 level |
 //! | light | 2^-28 of full at [points](light::world), 2^-16 in [HW2](mod@light) | stated there, far below a level of 255 |

@@ -1,4 +1,4 @@
-//! Values in perspective, divided at the ends of subspans.
+//! Values in perspective, by reciprocals from a table.
 
 use core::hint::black_box;
 use core::mem;

@@ -25,7 +25,7 @@ pub type TexturedTriangle = [Corner<Perspective32<2>>; 3];
 /// Perspective to within half a texel: 92/256 by subdivision, the rest is left to arithmetic.
 pub type HalfTexel = PerspectiveSpans<2, 92>;
 
-/// A textured triangle in perspective, divided at the ends of subspans.
+/// A textured triangle in perspective, by reciprocals from a table.
 pub type SpannedTriangle = [Corner<HalfTexel>; 3];
 
 /// Texels of a side of [`TEXTURE`].

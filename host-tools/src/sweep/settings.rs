@@ -184,7 +184,7 @@ mod tests {
         let text = b"png 9 9 a.png\nxyz -1 -1 0\nxyz -1 1 0\nxyz 1 -1 0\ntrig 1 2 3\n";
         let scene = hw2::parse(&text[..], Path::new("")).expect("a scene");
         let dials: Vec<Dials> = settings(&Scene::Hw2(scene)).into_iter().map(|s| s.dials).collect();
-        // Without lights and rotations, balanced is words of 32 bits and nothing else, and fast is subspans.
+        // Without lights and rotations, balanced is words of 32 bits and nothing else, and fast is reciprocals from a table.
         assert_eq!(dials[1], dials[3]);
         assert_eq!(dials[2], dials[4]);
         assert_ne!(dials[1], dials[2]);

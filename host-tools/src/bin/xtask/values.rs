@@ -16,7 +16,7 @@ const MOST: f64 = 1.0;
 /// Workloads with interpolated colour and depth.
 const GOURAUD: [&str; 2] = ["W2", "W4"];
 
-/// Most that a texel's place may be off where it is divided for at every pixel, in texels, and at the ends of subspans.
+/// Most that a texel's place may be off where it is divided for at every pixel, in texels, and by reciprocals from a table.
 const MOST_TEXEL: f64 = 1.0 / 32.0;
 const MOST_SPANNED: f64 = 0.5;
 
