@@ -7,8 +7,8 @@ use crate::gradient::{Basis, Place, Plane, Ramp};
 
 /// N values linear over the screen, |v| ≤ 2^30 in units of the user's choice.
 ///
-/// Error along a span: one unit per pixel at most (see [`gradient`](mod@crate::gradient)); every value lies in the range
-/// of the corners' values.
+/// Error along a row: one unit per pixel at most from its first covered one on, on the window or not, so that every window has
+/// the same bits (see [`gradient`](mod@crate::gradient)); every value lies in the range of the corners' values.
 ///
 /// ```
 /// use fixel::varying::Linear;
