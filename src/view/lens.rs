@@ -1,0 +1,314 @@
+//! From vertices in eye space to corners on the screen: clipped, projected, snapped and culled.
+
+use core::cmp::Ordering;
+
+use super::carried::{Shares, Wants, Weigh, at_cut, in_clip_space, whole};
+use super::projected::{Left, Next, PlacedCorner, Places};
+use super::{Carried, Cull, Vertex, View, in_front, w_of};
+use crate::clip::{
+    Behind, ClipCorner, DepthRange, Held, Polygon, Slots, at_far, before_camera, cut_by, is_beyond, to_view,
+};
+use crate::matrix::Matrix;
+use crate::num::{Block, Scaled, Word};
+use crate::viewport::Viewport;
+
+/// A [`View`] with any N: what works with this is in a program once.
+pub(crate) struct Lens<'v, T: Word, W> {
+    projection: &'v Matrix<T>,
+    planes: &'v [Block<T, 4>],
+    viewport: &'v Viewport<W>,
+    depth_range: DepthRange,
+    behind: Behind,
+    cull: Cull,
+}
+
+impl<T: Word, W: Word, const N: usize> View<T, W, N> {
+    /// The next of what is left. A function of its own, whose stack is free again when that is drawn.
+    #[inline(never)]
+    pub(super) fn project_next<V: Carried>(&self, vertices: &[Vertex<T, V::Vertex>; 3], left: &mut Left<V, N>) {
+        let positions = vertices.each_ref().map(|v| v.position);
+        let mut polygon = Polygon::<_, N>::default();
+        let (lens, mut polygon, mut next) = (self.lens(), polygon.slots(), left.next());
+        if !V::WANTS.screen {
+            // Values stay those of the vertices, whatever is cut: what follows is the same for any.
+            lens.next(&positions, V::WANTS, &mut polygon, &mut next.places);
+            return;
+        }
+        let vertex_w = lens.clip(&positions, &mut polygon);
+        let carried = vertices.each_ref().map(|v| v.carried);
+        if V::WANTS.fan && !self.planes.is_empty() {
+            lens.fan::<V>(&polygon, &carried, &mut next);
+        } else {
+            lens.cut::<V>(&mut polygon, vertex_w, &carried, &mut next);
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn lens(&self) -> Lens<'_, T, W> {
+        Lens {
+            projection: &self.projection,
+            planes: self.planes.as_slice(),
+            viewport: &self.viewport,
+            depth_range: self.depth_range,
+            behind: self.behind,
+            cull: self.cull,
+        }
+    }
+}
+
+impl<T: Word, W: Word> Lens<'_, T, W> {
+    /// The next of what is left of a triangle with values that are linear in space, or none.
+    #[inline(never)]
+    fn next<S: Shares>(
+        &self,
+        positions: &[Block<T, 4>; 3],
+        wants: Wants,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
+        places: &mut Places<'_, S>,
+    ) {
+        let vertex_w = self.clip(positions, polygon);
+        self.cut_at_infinity(polygon, vertex_w, wants, places);
+    }
+
+    /// Leaves of a triangle what user planes keep, and takes it to clip space; w of the vertices.
+    #[inline(never)]
+    fn clip(&self, positions: &[Block<T, 4>; 3], polygon: &mut Slots<'_, ClipCorner<T>>) -> [Scaled<T>; 3] {
+        for corner in ClipCorner::of_vertices(*positions) {
+            polygon.push(corner);
+        }
+        cut_by(self.planes, polygon);
+        polygon.each(|corner| corner.position = self.projection.transform(corner.position));
+        let mut vertex_w = [Scaled::ZERO; 3];
+        for (i, (w, &position)) in vertex_w.iter_mut().zip(positions).enumerate() {
+            // Without planes its corners are the vertices.
+            *w = match polygon.held().get(i) {
+                Some(corner) if self.planes.is_empty() => w_of(corner.position),
+                _ => w_of(self.projection.transform(position)),
+            };
+        }
+        vertex_w
+    }
+
+    /// Whether a triangle has to be cut [where it passes the camera](Self::across).
+    #[inline]
+    fn is_across<V: Carried>(&self, vertex_w: [Scaled<T>; 3]) -> bool {
+        V::WANTS.screen && self.behind == Behind::Cut && !vertex_w.into_iter().all(in_front)
+    }
+
+    /// Whether a polygon is no convex one on the screen.
+    #[inline]
+    fn is_through_infinity(&self, polygon: &Slots<'_, ClipCorner<T>>) -> bool {
+        self.behind == Behind::Divide && polygon.held().len() > 3 && changes_sign(polygon.held())
+    }
+
+    /// What user planes have left.
+    pub(crate) fn cut<V: Carried>(
+        &self,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
+        vertex_w: [Scaled<T>; 3],
+        carried: &[V::Vertex; 3],
+        next: &mut Next<'_, V>,
+    ) {
+        if self.is_across::<V>(vertex_w) {
+            self.across::<V>(polygon, vertex_w, carried, next);
+        } else {
+            next.carry(carried);
+            self.cut_at_infinity(polygon, vertex_w, V::WANTS, &mut next.places);
+        }
+    }
+
+    /// The same, by a fan if need be.
+    #[inline(never)]
+    fn cut_at_infinity<S: Shares>(
+        &self,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
+        vertex_w: [Scaled<T>; 3],
+        wants: Wants,
+        places: &mut Places<'_, S>,
+    ) {
+        if !self.is_through_infinity(polygon) {
+            self.finish(polygon, vertex_w, wants, places);
+            return;
+        }
+        for i in 2..polygon.held().len() {
+            let corners = [0, i - 1, i].into_iter().filter_map(|i| polygon.held().get(i));
+            let mut part: Polygon<_, 0> = corners.copied().collect();
+            self.finish(&mut part.slots(), vertex_w, wants, places);
+        }
+    }
+
+    /// A triangle that reaches behind the camera: cut to what is before it, whose fan is of triangles like any other.
+    #[cold]
+    #[inline(never)]
+    fn across<V: Carried>(
+        &self,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
+        vertex_w: [Scaled<T>; 3],
+        carried: &[V::Vertex; 3],
+        next: &mut Next<'_, V>,
+    ) {
+        if before_camera(polygon, self.viewport, self.depth_range).is_none() {
+            return;
+        }
+        let made = |corner: &ClipCorner<T>| Made {
+            position: corner.position,
+            size: whole(corner.weights),
+            carried: V::between(*carried, &at_cut(corner, vertex_w)),
+        };
+        let mut fan = None;
+        let mut next = |corner| match &mut fan {
+            None => fan = Some((corner, None)),
+            Some((_, second @ None)) => *second = Some(corner),
+            Some((first, Some(second))) => {
+                self.part::<V>([first, second, &corner], next);
+                *second = corner;
+            }
+        };
+        let ends = polygon.held().iter().skip(1).chain(polygon.held().get(0));
+        for (a, b) in polygon.held().iter().zip(ends) {
+            let (start, end) = (made(a), made(b));
+            let crossing = self.to_far::<V>(&start, &end);
+            if crossing.stays {
+                next(start);
+            }
+            if let Some(corner) = crossing.corner {
+                next(corner);
+            }
+        }
+    }
+
+    /// A triangle of corners that clipping has made.
+    #[inline(never)]
+    fn part<V: Carried>(&self, corners: [&Made<T, V::Vertex>; 3], next: &mut Next<'_, V>) {
+        let mut polygon: Polygon<_, 0> = Made::corners(corners).into_iter().collect();
+        let w = corners.map(Made::w);
+        next.carry(&corners.map(|corner| corner.carried));
+        self.finish(&mut polygon.slots(), w, V::WANTS, &mut next.places);
+    }
+
+    /// Cuts off what is beyond the far plane of an edge, values being linear over the screen along it.
+    #[inline(never)]
+    fn to_far<V: Carried>(&self, a: &Made<T, V::Vertex>, b: &Made<T, V::Vertex>) -> ToFar<T, V::Vertex> {
+        let [start, end] = Made::corners([a, b]);
+        let beyond = [&start, &end].map(|corner| is_beyond(corner, self.depth_range));
+        let corner = match beyond {
+            [false, true] => Some(at_far(&start, &end)),
+            [true, false] => Some(at_far(&end, &start)),
+            _ => None,
+        };
+        ToFar {
+            stays: !beyond[0],
+            corner: corner.map(|corner| Made {
+                position: corner.position,
+                size: whole(corner.weights),
+                carried: V::between(
+                    [a.carried, b.carried, b.carried],
+                    &at_cut(&corner, [a.w(), b.w(), b.w()]),
+                ),
+            }),
+        }
+    }
+
+    /// Every triangle of the fan as if it had been given: its corners' values are linear in clip space, and what is cut from
+    /// here on is linear over the screen.
+    fn fan<V: Carried>(&self, polygon: &Slots<'_, ClipCorner<T>>, carried: &[V::Vertex; 3], next: &mut Next<'_, V>) {
+        for i in 2..polygon.held().len() {
+            let (Some(first), Some(second), Some(third)) =
+                (polygon.held().get(0), polygon.held().get(i - 1), polygon.held().get(i))
+            else {
+                continue;
+            };
+            let corners = [first, second, third];
+            let values = corners.map(|corner| V::between(*carried, &in_clip_space(corner)));
+            let mut given = Polygon::<_, 0>::of_vertices(corners.map(|corner| corner.position));
+            let w = corners.map(|corner| w_of(corner.position));
+            self.cut::<V>(&mut given.slots(), w, &values, next);
+        }
+    }
+
+    /// From clip space to the screen, if it is the next; without corners where it is not drawn.
+    #[inline(never)]
+    fn finish<S: Shares>(
+        &self,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
+        vertex_w: [Scaled<T>; 3],
+        wants: Wants,
+        places: &mut Places<'_, S>,
+    ) {
+        if !places.is_next() {
+            return;
+        }
+        places.corners.clear();
+        places.shares.clear();
+        if to_view(polygon, self.viewport, self.depth_range, self.behind).is_some() {
+            self.place(polygon.held(), vertex_w, wants, places);
+        }
+    }
+
+    /// On the screen, what lies in the view. A function of its own, whose stack clipping does not add to.
+    #[inline(never)]
+    fn place<S: Shares>(
+        &self,
+        polygon: Held<'_, ClipCorner<T>>,
+        vertex_w: [Scaled<T>; 3],
+        wants: Wants,
+        Places { corners, shares, .. }: &mut Places<'_, S>,
+    ) {
+        let range = self.depth_range;
+        let weigh = Weigh::new(polygon, vertex_w, wants);
+        for corner in polygon.iter() {
+            let Some((x, y, depth)) = self.viewport.place(corner.position, range) else {
+                continue;
+            };
+            corners.push(PlacedCorner {
+                position: (x, y),
+                depth,
+            });
+            shares.push(weigh.shares_of(corner));
+        }
+        if !self.cull.keeps(corners.held().area()) {
+            corners.clear();
+        }
+    }
+}
+
+/// A corner that clipping has made, and what a vertex in its place would carry.
+#[derive(Debug, Clone, Copy)]
+struct Made<T, A> {
+    /// As many times the point in space as `size` says.
+    position: Block<T, 4>,
+    size: Scaled<T>,
+    carried: A,
+}
+
+impl<T: Word, A> Made<T, A> {
+    fn w(&self) -> Scaled<T> {
+        w_of(self.position).over(self.size).unwrap_or(Block::ZERO)
+    }
+
+    /// The corners of a triangle, or the ends of an edge, whose vertices are these points in space.
+    fn corners<const K: usize>(made: [&Self; K]) -> [ClipCorner<T>; K] {
+        let mut corners = ClipCorner::of_vertices(made.map(|corner| corner.position));
+        for (corner, made) in corners.iter_mut().zip(made) {
+            corner.weights = corner.weights.times(made.size);
+        }
+        corners
+    }
+}
+
+/// What the far plane leaves of an edge: its start or not, and the corner that it makes there.
+struct ToFar<T, A> {
+    stays: bool,
+    corner: Option<Made<T, A>>,
+}
+
+/// Whether some corners have w < 0 and some w > 0.
+fn changes_sign<T: Word>(polygon: Held<'_, ClipCorner<T>>) -> bool {
+    let any = |wanted: Ordering| {
+        polygon.iter().any(|corner| {
+            let [.., w] = corner.position.mantissas();
+            w.cmp(&T::ZERO) == wanted
+        })
+    };
+    any(Ordering::Less) && any(Ordering::Greater)
+}
