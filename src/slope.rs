@@ -135,6 +135,15 @@ impl Weights {
         }
     }
 
+    /// The least number for which no row of the triangle has two pixels more than 2^ that apart, of 2 to 10.
+    #[inline(always)]
+    pub(crate) fn widest_row(&self) -> u32 {
+        // Along a row no weight changes by more than 1, which is 2^(32 − up).
+        let (b, c) = self.x;
+        let steepest = b.unsigned_abs() | c.unsigned_abs() | (b + c).unsigned_abs();
+        (steepest.leading_zeros() + 1).saturating_sub(self.up).clamp(2, 10)
+    }
+
     /// Where [slopes](Self::slope) have the value of pixel (x, y): columns and rows from the picture's origin.
     #[inline(always)]
     pub fn place(&self, x: i32, y: i32) -> (i32, i32) {

@@ -1,7 +1,6 @@
 //! Values in perspective, by reciprocals from a table.
 
 use core::hint::black_box;
-use core::mem;
 
 use super::perspective32::sign;
 use super::{Perspective, Perspective32, Perspective32Ramps, Varying, each, each_pixel};
@@ -13,21 +12,22 @@ use crate::span::Span;
 /// As [`Perspective32`], to within an error that is accepted: `BOUND`, in units of 2^-8 texel where values are in units of
 /// 2^-16 texel. For cores that do not divide.
 ///
-/// A reciprocal from a table of 2 KiB at every pixel; but where subspans of 32 pixels are within the bound, a row's values are
-/// linear between their ends. Where all of a triangle is within the bound without perspective nothing is divided: then this is
-/// [`Linear32`](super::Linear32). That is so wherever w is the same at its corners.
+/// A reciprocal from a table of 2 KiB at every pixel; but where all rows of a triangle are within the bound of linear, as those
+/// of a floor are, two for a row. Where all of a triangle is within the bound without perspective nothing is divided: then this
+/// is [`Linear32`](super::Linear32). That is so wherever w is the same at its corners.
 ///
-/// **Where there are subspans.** Let value/w and Q = 1/w rise by U′ and Q′ from pixel to pixel. Between two ends S pixels apart
-/// a linear value v is off by at most |Δv|·|√ρ − 1|/(√ρ + 1), with ρ = Q₁/Q₀; with |Δv| = K·S/(Q₀·Q₁), where
+/// **Where rows are linear.** Let value/w and Q = 1/w rise by U′ and Q′ from pixel to pixel. Between two places of a row S pixels
+/// apart a linear value v is off by at most |Δv|·|√ρ − 1|/(√ρ + 1), with ρ = Q₁/Q₀; with |Δv| = K·S/(Q₀·Q₁), where
 /// K = |U′·Q − U·Q′| does not change along a row, that is at most K·|Q′|·S²/(4·Q³) with the lesser Q. K is linear over the
-/// triangle, so largest at a corner. A row has subspans where for S = 32 that is below the bound at both of its ends and as far
-/// beyond its right one as its last subspan reaches. Over the whole triangle v is within |Δv|·(√ρ − 1)/(√ρ + 1) of linear,
-/// with Δv and ρ over the corners. Subspans are counted from the first pixel of the whole row, so that a strip or tile has the
-/// bits of the whole picture.
+/// triangle, so largest at a corner. S is the least power of two that no row is wider than, and Q the least of the corners less
+/// what a row can reach beyond its end. Over the whole triangle v is within |Δv|·(√ρ − 1)/(√ρ + 1) of linear, with Δv and ρ over
+/// the corners. Rows are linear from the first pixel of the whole row on, so that a strip or tile has the bits of the whole
+/// picture.
 ///
 /// **Error**: `BOUND`, and with ρ the largest 1/w of the polygon over that of the pixel 2^-12·(1 + 2½·ρ + ρ²/64) of the largest
-/// value, that of slopes as for [`Perspective32`], and 64 units (`tests/subspans.rs`). Triangles with a ρ of 16 or more or
-/// with values of 2^26 units and more, and clipped polygons, divide at every pixel.
+/// value, or of 64 texels where that is more, that of slopes as for [`Perspective32`], 64 units, and one for each pixel of a row
+/// (`tests/subspans.rs`). Triangles with a ρ of 16 or more or with values of 2^26 units and more, and clipped polygons, divide at
+/// every pixel.
 ///
 /// ```
 /// use fixel::varying::{Perspective, PerspectiveSpans};
@@ -44,11 +44,6 @@ impl<const N: usize, const BOUND: u32> From<Perspective<N>> for PerspectiveSpans
     }
 }
 
-/// Subspans are of 2^5 pixels.
-const LENGTH: u32 = 5;
-/// Rows of less pixels take reciprocals.
-const WORTHWHILE: i32 = 16;
-
 /// The slopes of a [`PerspectiveSpans`].
 #[derive(Debug, Clone, Copy)]
 pub struct SpansSlopes<const N: usize> {
@@ -62,10 +57,10 @@ pub struct SpansSlopes<const N: usize> {
 enum Way {
     /// Nothing is divided: `over_w` are the values.
     Linear,
-    /// By [`at_pixel`], which tells what is cut off value/w: `over_w` are in 2^-16 of what is left, 1/w in 2^-31.
-    Pixels(u32),
-    /// The same, but in subspans where 1/w at both ends of a row is at least the second number.
-    Rows(u32, u32),
+    /// By [`at_pixel`]: `over_w` are in 2^-16 of what is left when value/w is cut, 1/w in 2^-31.
+    Pixels(Cut),
+    /// The same at the ends of rows, 2^ the second number pixels apart.
+    Rows(Cut, u32),
     /// As [`Perspective32`] is: where 1/w varies by 16 or more, or not all of them have the same sign.
     Divided,
 }
@@ -95,11 +90,11 @@ impl<const N: usize> SpansSlopes<N> {
                 way: Way::Linear,
             };
         }
-        // Some more than 1/16, so that its reciprocal in 2^-12 stays below 2^16.
+        // Some more than 1/16, so that its reciprocal in 2^-11 stays below 2^15.
         let cut = if least < (1 << 26) + (1 << 20) {
             None
         } else {
-            cut(corners)
+            Cut::of(corners)
         };
         let Some(cut) = cut else {
             return SpansSlopes {
@@ -108,44 +103,52 @@ impl<const N: usize> SpansSlopes<N> {
                 way: Way::Divided,
             };
         };
+        let over_w = through(weights, [&a.over_w, &b.over_w, &c.over_w]);
         let mut inverse = weights.slope(inverses);
         // Below 1 at every pixel, roundings and all, for what looks up its first bits.
         inverse.value = inverse.value.wrapping_sub(1 << 12);
-        // At a corner of value v is K = Q·(U′ − v·Q′).
-        let over_w = through(weights, [&a.over_w, &b.over_w, &c.over_w]);
-        let mut bend = 0;
-        for corner in corners {
-            for (slope, &value) in over_w.iter().zip(&corner.values) {
-                let rise = (slope.x as i64 - product(value, inverse.x))
-                    .unsigned_abs()
-                    .min(i32::MAX as u64);
-                let corner_bend = product(rise as i32, corner.inverse).clamp(0, u32::MAX as i64 - 2);
-                bend = bend.max(corner_bend as u32 + 2);
-            }
-        }
-        let enough = bound.least_inverse(bend, inverse.x.unsigned_abs());
+        let length = weights.widest_row();
+        let are_linear = bound.allows_rows(
+            length,
+            bend(&over_w, inverse.x, corners),
+            inverse.x.unsigned_abs(),
+            least,
+        );
         SpansSlopes {
-            over_w: each(&over_w, |slope| slope.shifted(16 - cut)),
+            over_w: each(&over_w, |slope| cut.done(slope)),
             inverse: inverse.shifted(1),
-            way: if enough > most as u32 {
-                Way::Pixels(cut)
+            way: if are_linear {
+                Way::Rows(cut, length)
             } else {
-                Way::Rows(cut, enough << 1)
+                Way::Pixels(cut)
             },
         }
     }
 
     /// A reciprocal at every pixel.
+    #[inline(always)]
+    fn at_pixels<F>(&self, span: &Span, cut: Cut, pixels: &mut [F::Pixel], fragment: &F)
+    where
+        F: Fragment<Varying: Varying<Values = [i32; N]>>,
+    {
+        match cut {
+            Cut::Ten => self.each_by_table::<F, true>(span, pixels, fragment),
+            Cut::Twelve => self.each_by_table::<F, false>(span, pixels, fragment),
+        }
+    }
+
+    /// The same, of values that are cut by ten bits or by twelve.
     ///
-    /// A function of its own: other loops beside this one would take its registers.
+    /// A function of its own: other loops beside this one would take its registers. 15 instructions a pixel on Cortex-M4.
     #[inline(never)]
-    fn at_pixels<F>(&self, span: &Span, cut: u32, pixels: &mut [F::Pixel], fragment: &F)
+    fn each_by_table<F, const TEN: bool>(&self, span: &Span, pixels: &mut [F::Pixel], fragment: &F)
     where
         F: Fragment<Varying: Varying<Values = [i32; N]>>,
     {
         let ramps = self.ramps((span.left, span.row));
         // Loaded rather than put together again at every pixel.
         let table = black_box(&RECIPROCALS);
+        let cut = if TEN { Cut::Ten } else { Cut::Twelve };
         let values = |ramps: &_| at_pixel(ramps, cut, table);
         each_pixel(ramps, values, Perspective32Ramps::advance, pixels, fragment);
     }
@@ -169,48 +172,25 @@ impl<const N: usize> SpansSlopes<N> {
                 );
             }
             Way::Pixels(cut) => self.at_pixels(span, cut, pixels, fragment),
-            Way::Rows(cut, enough) => {
-                let width = span.whole_right.wrapping_sub(span.whole_left);
-                let first = self.inverse.ramp((span.whole_left, span.row));
-                // The last pixel: the last subspan reaches less than its length beyond it.
-                let last = first.after(width.wrapping_sub(1));
-                // Where a row is that wide, no step from pixel to pixel has left its word.
-                if width < WORTHWHILE || (first.value as u32).min(last.value as u32) < enough {
-                    self.at_pixels(span, cut, pixels, fragment);
-                } else {
-                    self.subspans(span, cut, pixels, fragment);
-                }
-            }
+            Way::Rows(cut, length) => self.row(span, cut, length, pixels, fragment),
         }
     }
 
-    /// In subspans.
+    /// Linear between the ends of a row.
     #[inline(never)]
-    fn subspans<F>(&self, span: &Span, cut: u32, mut pixels: &mut [F::Pixel], fragment: &F)
+    fn row<F>(&self, span: &Span, cut: Cut, length: u32, pixels: &mut [F::Pixel], fragment: &F)
     where
         F: Fragment<Varying: Varying<Values = [i32; N]>>,
     {
         // From the first pixel of the whole row on, so that a window has the bits of the whole picture.
-        let skipped = span.left.wrapping_sub(span.whole_left);
-        let first = skipped >> LENGTH << LENGTH;
-        let mut ends = self.ramps((span.whole_left.wrapping_add(first), span.row));
-        let mut before = skipped - first;
-        let mut from = at_end(&ends, cut);
-        while !pixels.is_empty() {
-            ends = ends.after(1 << LENGTH);
-            let to = at_end(&ends, cut);
-            let mut ramps = [Ramp::default(); N];
-            for (ramp, (&from, &to)) in ramps.iter_mut().zip(from.iter().zip(&to)) {
-                let step = to.wrapping_sub(from) >> LENGTH;
-                *ramp = Ramp { value: from, step }.after(before);
-            }
-            let count = pixels.len().min(((1 << LENGTH) - before) as usize);
-            let Some((subspan, rest)) = mem::take(&mut pixels).split_at_mut_checked(count) else {
-                return;
-            };
-            linear(ramps, subspan, fragment);
-            (from, before, pixels) = (to, 0, rest);
+        let start = self.ramps((span.whole_left, span.row));
+        let from = at_pixel(&start, cut, &RECIPROCALS);
+        let rises = rises(&start, cut, length);
+        let mut ramps = [Ramp::default(); N];
+        for (ramp, (&value, &step)) in ramps.iter_mut().zip(from.iter().zip(&rises)) {
+            *ramp = Ramp { value, step }.after(span.left.wrapping_sub(span.whole_left));
         }
+        linear(ramps, pixels, fragment);
     }
 
     #[inline(always)]
@@ -220,6 +200,22 @@ impl<const N: usize> SpansSlopes<N> {
             inverse: self.inverse.ramp(place),
         }
     }
+}
+
+/// K at the corner where it is largest: with v the value there Q·(U′ − v·Q′).
+#[inline(always)]
+fn bend<const N: usize>(over_w: &[Slope; N], inverse_step: i32, corners: &[Perspective<N>; 3]) -> u32 {
+    let mut bend = 0;
+    for corner in corners {
+        for (slope, &value) in over_w.iter().zip(&corner.values) {
+            let rise = (slope.x as i64 - product(value, inverse_step))
+                .unsigned_abs()
+                .min(i32::MAX as u64);
+            let corner_bend = product(rise as i32, corner.inverse).clamp(0, u32::MAX as i64 - 2);
+            bend = bend.max(corner_bend as u32 + 2);
+        }
+    }
+    bend
 }
 
 /// Without a division.
@@ -232,58 +228,111 @@ where
     each_pixel(ramps, |ramps| each(ramps, |ramp| ramp.value), advance, pixels, fragment);
 }
 
-/// w in 2^-12, below 2^16, for 1/w in 1/16…1 in units of 2^-31: of the middle of the 1024th that it lies in, so to 2^-11·w of
-/// itself and a unit.
+/// w in 2^-11, below 2^15, for 1/w in 1/16…1 in units of 2^-31: of the middle of the 1024th that it lies in, so to 2^-11·w of
+/// itself and half a unit.
 #[inline(always)]
-fn near(inverse: u32, reciprocals: &[u16; 1024]) -> i32 {
+fn near(inverse: u32, reciprocals: &[i16; 1024]) -> i32 {
     reciprocals.get((inverse >> 21 & 1023) as usize).copied().unwrap_or(0) as i32
 }
 
-/// What [`near`] finds; 1/w below 1/16 is not looked at.
-static RECIPROCALS: [u16; 1024] = {
-    let mut reciprocals = [u16::MAX; 1024];
+/// What [`near`] finds; 1/w below 1/16 is not looked at. Signed, so that a product with the upper half of a word is one
+/// instruction.
+static RECIPROCALS: [i16; 1024] = {
+    let mut reciprocals = [i16::MAX; 1024];
     let mut i = 64;
     while i < 1024 {
         // w in 2^-12 is 2^23 over 1/w in 2^-11.
-        reciprocals[i] = ((1 << 23) / (2 * i as u32 + 1)) as u16;
+        reciprocals[i] = (((1 << 23) / (2 * i as u32 + 1) + 1) >> 1) as i16;
         i += 1;
     }
     reciprocals
 };
 
-/// Values at a pixel, from value/w in 2^-16 of what is left where `cut` is cut off, and 1/w in 2^-31. 14 bits by 16, and a sign.
+/// Values at a pixel, from value/w in 2^-16 of what is left where `cut` is cut off, and 1/w in 2^-31. 14 bits by 15, and a sign.
 ///
-/// Off by 2^-12·(1 + 2½·ρ + ρ²/64) of the largest value.
+/// Off by 2^-12·(1 + 2½·ρ + ρ²/64) of the largest value, or of 2^22 where that is more.
 #[inline(always)]
-fn at_pixel<const N: usize>(ramps: &Perspective32Ramps<N>, cut: u32, reciprocals: &[u16; 1024]) -> [i32; N] {
+fn at_pixel<const N: usize>(ramps: &Perspective32Ramps<N>, cut: Cut, reciprocals: &[i16; 1024]) -> [i32; N] {
     let near = near(ramps.inverse.value as u32, reciprocals);
-    each(&ramps.over_w, |ramp| {
-        (ramp.value >> 16).wrapping_mul(near) >> (12u32.wrapping_sub(cut) & 15)
+    each(&ramps.over_w, |ramp| cut.undone(ramp.value >> 16, near))
+}
+
+/// What values rise by from pixel to pixel over 2^`length` pixels, which may reach beyond the row: value/w has room there for
+/// four times of what it has in the triangle, and 1/w, which is looked up up to 2, is cut by no more than value/w is.
+#[inline(always)]
+fn rises<const N: usize>(start: &Perspective32Ramps<N>, cut: Cut, length: u32) -> [i32; N] {
+    let end = start.inverse.after(1 << length).value as u32;
+    let half = end >> 31;
+    let (near_start, near_end) = (
+        near(start.inverse.value as u32, &RECIPROCALS),
+        near(end >> half, &RECIPROCALS),
+    );
+    each(&start.over_w, |ramp| {
+        // In 2^-14 of what is left, and then in 2, rounded: 13 bits at the start, 5·2^13 at the end; by 15 bits.
+        let first = (ramp.value >> 2).wrapping_add(1 << 13);
+        let last = first.wrapping_add((ramp.step >> 2).wrapping_shl(length));
+        let last = (last >> 15 >> half).wrapping_mul(near_end);
+        cut.undone_rise(last.wrapping_sub((first >> 15).wrapping_mul(near_start)), length)
     })
 }
 
-/// The same at the end of a subspan, which may lie where 1/w is up to 2.
-#[inline(always)]
-fn at_end<const N: usize>(ramps: &Perspective32Ramps<N>, cut: u32) -> [i32; N] {
-    let inverse = ramps.inverse.value as u32;
-    let half = inverse >> 31;
-    let near = near(inverse >> half, &RECIPROCALS);
-    each(&ramps.over_w, |ramp| {
-        (ramp.value >> 16 >> half).wrapping_mul(near) >> (12u32.wrapping_sub(cut) & 15)
-    })
+/// By how many bits value/w is cut, to 14 or less: two numbers only, so that each has a loop with the shift in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cut {
+    /// Values below 2^24: textures of 64 texels and less, repeated up to four times, among them.
+    Ten,
+    /// Values below 2^26.
+    Twelve,
 }
 
-/// By how much value/w is cut to 14 bits; `None` where that is more than 12.
-#[inline(always)]
-fn cut<const N: usize>(corners: &[Perspective<N>; 3]) -> Option<u32> {
-    let mut all = 0;
-    for corner in corners {
-        for &v in &corner.over_w {
-            all |= v.unsigned_abs();
+impl Cut {
+    /// `None` where values are too large.
+    #[inline(always)]
+    fn of<const N: usize>(corners: &[Perspective<N>; 3]) -> Option<Self> {
+        let mut all = 0;
+        for corner in corners {
+            for &v in &corner.over_w {
+                all |= v.unsigned_abs();
+            }
+        }
+        match all {
+            0..0x100_0000 => Some(Cut::Ten),
+            0x100_0000..0x400_0000 => Some(Cut::Twelve),
+            _ => None,
         }
     }
-    let bits = 32 - all.leading_zeros();
-    (bits <= 26).then(|| bits.saturating_sub(14))
+
+    /// value/w in 2^-16 of what is left, rounded to that where it is cut.
+    #[inline(always)]
+    fn done(self, slope: &Slope) -> Slope {
+        let slope = slope.shifted(match self {
+            Cut::Ten => 6,
+            Cut::Twelve => 4,
+        });
+        Slope {
+            value: slope.value.wrapping_add(1 << 15),
+            ..slope
+        }
+    }
+
+    /// Per pixel, what a value of twice of what is left rises by, times w in 2^-11, over 2^`length` pixels, 4 or more.
+    #[inline(always)]
+    fn undone_rise(self, rise: i32, length: u32) -> i32 {
+        match self {
+            Cut::Ten => rise >> length,
+            Cut::Twelve => rise >> length.wrapping_sub(2),
+        }
+    }
+
+    /// A value of what is left of value/w, and w in 2^-11.
+    #[inline(always)]
+    fn undone(self, over_w: i32, near: i32) -> i32 {
+        let product = over_w.wrapping_mul(near);
+        match self {
+            Cut::Ten => product >> 1,
+            Cut::Twelve => product << 1,
+        }
+    }
 }
 
 /// The product in units of 2^-30, rounded down.
@@ -317,17 +366,12 @@ fn widest<const N: usize>(corners: &[Perspective<N>; 3]) -> u32 {
 struct Bound {
     /// In 2^-8 texel.
     parts: u32,
-    /// 2^24 / `parts`, rounded up.
-    reciprocal: u32,
 }
 
 impl Bound {
     const fn new(parts: u32) -> Self {
         assert!(parts > 0 && parts <= 1 << 22, "a bound of 1 to 2^22");
-        Bound {
-            parts,
-            reciprocal: (1u32 << 24).div_ceil(parts),
-        }
+        Bound { parts }
     }
 
     /// Whether values that differ by up to `widest` at the corners, with 1/w of `least` to `most`, are within the bound of
@@ -339,31 +383,19 @@ impl Bound {
         bend == 0 || least > 0 && bend <= (self.parts as u64 * least as u64) << 10
     }
 
-    /// The least Q at the ends of a span for which (Q − |Q′|·S)³ ≥ K·|Q′|·S²/(4·bound), in 2^-30: then the bound holds on a last
-    /// subspan that reaches beyond the end, too. `bend` is K in units, `rise` |Q′| in 2^-30.
+    /// Whether values are within the bound of linear over 2^`length` pixels of any row, and 1/w is where [`near`] looks it up:
+    /// whether (Q − |Q′|·S)³ ≥ K·|Q′|·S²/(4·bound). `bend` is K in units, `rise` |Q′| in 2^-30, `least` Q in 2^-30.
     #[inline(always)]
-    fn least_inverse(self, bend: u32, rise: u32) -> u32 {
-        let steepness = bend as u64 * rise as u64;
-        if steepness >= (self.parts as u64) << 40 {
-            // A root of 1 or more, without S.
-            return i32::MAX as u32;
+    fn allows_rows(self, length: u32, bend: u32, rise: u32, least: i32) -> bool {
+        let beyond = (least as i64).wrapping_sub((rise as i64) << length);
+        if beyond < 1 << 26 {
+            return false;
         }
-        // In 2^-30: below 2^32 · 2^8, times 2^24, over 2^26.
-        let cube = (((steepness >> 8) * self.reciprocal as u64) >> 26) as u32 + 2;
-        // In 2^-10, from above.
-        let mut root = 0;
-        for bit in (0..10).rev() {
-            let larger = root | 1 << bit;
-            if larger * larger * larger < cube {
-                root = larger;
-            }
-        }
-        root += 1;
-        // S^(2/3) in 2^-10, rounded up.
-        const FACTOR: u32 = 10322;
-        // In 2^-16: below 2^20 and 2^22. Beyond the end, too, there is a reciprocal.
-        let inverse = (root * FACTOR).div_ceil(16).max(1 << 12) + (((rise >> 14) + 1) << LENGTH);
-        inverse.min((1 << 17) - 1) << 14
+        // In 2^-15, and its cube in 2^-30, rounded down.
+        let end = (beyond >> 15) as u32;
+        let cube = (end * end >> 15) * end;
+        // The bound is 2^8 units a part. Below 2^62.
+        bend as u64 * rise as u64 <= (self.parts as u64 * cube as u64) << 10 >> (2 * length)
     }
 }
 
@@ -392,8 +424,10 @@ impl<const N: usize, const BOUND: u32> Slopes<PerspectiveSpans<N, BOUND>> for Sp
     where
         F: Fragment<Varying = PerspectiveSpans<N, BOUND>>,
     {
+        // The usual one by a comparison.
         match self.way {
-            Way::Pixels(cut) => self.at_pixels(span, cut, pixels, fragment),
+            Way::Pixels(Cut::Ten) => self.each_by_table::<F, true>(span, pixels, fragment),
+            Way::Rows(cut, length) => self.row(span, cut, length, pixels, fragment),
             _ => self.draw_others(span, pixels, fragment),
         }
     }

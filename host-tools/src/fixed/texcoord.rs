@@ -40,7 +40,7 @@ pub fn texels(
 
 /// The most fraction bits that there are.
 pub const FINE: i32 = 30;
-/// The most for subspans, which take a texel to be 2^16 units: their bound is in parts of that.
+/// The most for `PerspectiveSpans`, which takes a texel to be 2^16 units: its bound is in parts of that.
 pub const IN_SPANS: i32 = 16;
 
 /// The whole number that is nearest to the middle between the least and the largest: where rounding is the same everywhere.

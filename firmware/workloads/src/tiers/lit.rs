@@ -24,7 +24,7 @@ pub const SURFACE: [i32; 3] = [16_000, 36_000, 50_000];
 /// Of the highlight, in units of 2^-16.
 pub const SHININESS: u32 = 20 << 16;
 
-/// Positions and normals as fragments carry them, in units of 2^-22: what is a texel to subspans is 1/64 of the radius.
+/// Positions and normals as fragments carry them, in units of 2^-22: what is a texel to `PerspectiveSpans` is 1/64 of the radius.
 pub(super) const SCALE: i32 = 22;
 
 /// Position in eye space and normal.

@@ -62,7 +62,7 @@ struct Work<'a, W> {
 /// beyond 2^31 they saturate, each by itself, which turns directions. A normal or a texel is right up to 2^11 of the range.
 const HEADROOM: u32 = 10;
 
-/// Bits that values are coarser by where subspans may be wrong by a certain number of units: by half a level of a lit colour, by
+/// Bits that values are coarser by where values in perspective may be wrong by a certain number of units: by half a level of a lit colour, by
 /// 2^-9 of a normal.
 const SPANS_HEADROOM: u32 = 6;
 
