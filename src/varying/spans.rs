@@ -393,7 +393,7 @@ impl Bound {
         }
         // In 2^-15, and its cube in 2^-30, rounded down.
         let end = (beyond >> 15) as u32;
-        let cube = (end * end >> 15) * end;
+        let cube = ((end * end) >> 15) * end;
         // The bound is 2^8 units a part. Below 2^62.
         bend as u64 * rise as u64 <= (self.parts as u64 * cube as u64) << 10 >> (2 * length)
     }
