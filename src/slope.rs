@@ -140,7 +140,8 @@ impl Weights {
     pub(crate) fn widest_row(&self) -> u32 {
         // Along a row no weight changes by more than 1, which is 2^(32 − up).
         let (b, c) = self.x;
-        let steepest = b.unsigned_abs() | c.unsigned_abs() | (b + c).unsigned_abs();
+        let sum = ((b >> 1) + (c >> 1)).unsigned_abs() << 1;
+        let steepest = b.unsigned_abs() | c.unsigned_abs() | sum;
         (steepest.leading_zeros() + 1).saturating_sub(self.up).clamp(2, 10)
     }
 
