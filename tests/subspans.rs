@@ -129,6 +129,33 @@ fn what_is_accepted_is_made_use_of() {
     assert!(seen.get() >= 0.125);
 }
 
+/// What a row rises by is found from a place beyond its end, where value/w can have left its word: found as random cases.
+#[test]
+fn there_is_room_beyond_the_ends_of_rows() {
+    let window = Window::new(0, 0, 64, 64);
+    let [near, nearer] = [
+        [1_073_741_824, 1_052_494_193, 1_073_119_603],
+        [1_073_741_824, 1_035_471_724, 1_035_162_823],
+    ];
+    let cases = [
+        (
+            [(4309, 14268), (4770, 0), (13445, 13494)],
+            [0, 5_497_135, 16_011_531],
+            near,
+        ),
+        (
+            [(7659, 4006), (901, 16795), (1513, 17714)],
+            [7_993_012, 0, 14_610_517],
+            nearer,
+        ),
+    ];
+    for (corners, texels, inverses) in cases {
+        let errors = errors::<128>(&Case { corners, window }, texels, inverses);
+        assert!(errors.len() > 10);
+        assert!(errors.into_iter().all(|(error, own)| error <= own + 32768.0));
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
