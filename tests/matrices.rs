@@ -16,9 +16,10 @@ use proptest::prelude::*;
 const ROUNDED: i64 = 1;
 /// Entries of a projection: both operands of a quotient are rounded, and the quotient is.
 const PROJECTION: i64 = 4;
-/// R·Rᵀ − 1, R·axis − axis of a rotation, per entry: unit vector, sine and cosine are off by 4 units each (8 for cosine
-/// and sine of wide words), and each row sums three products of them.
-const ROTATION: i64 = 24;
+/// R·Rᵀ − 1, R·axis − axis of a rotation, per entry, to first order: a unit vector is up to 2 units too long or too short, which
+/// counts 8 times where it turns half way round; sine and cosine are off by 4 units each (8 those of wide words), 2·√2 times; and
+/// the three entries of a row by 1.5 units of rounding, 2·√3 times. 16 + 23 + 5; 33 for narrow words, of which 24 were seen.
+const ROTATION: i64 = 44;
 /// D·Mᵀ − 1 of an inverse transpose, in units times the largest entries of D and M in the sum: the cofactors, the
 /// determinant and the quotient are rounded, and the determinant's error counts as often as the sum cancels.
 const INVERSE: i64 = 16;
