@@ -240,12 +240,12 @@ where
                 for (row, columns) in (row..).zip(&*columns) {
                     let span = Span::new(row, *columns, &window);
                     if span.left < span.right {
-                        let left_over = inside.span(&weights, color, depth, &span, fragment);
+                        let left_over = inside.span(color, depth, &span, fragment);
                         if left_over > 0 {
                             // Looked up once more: kept, it would take registers.
                             let mut span = Span::new(row, *columns, &window);
                             span.left = span.right.wrapping_sub(left_over as i32);
-                            inside.shade_others(color, depth, &span, &weights, fragment);
+                            inside.shade_others(color, depth, &span, fragment);
                         }
                     }
                 }
@@ -284,7 +284,7 @@ impl<V: Varying> Inside<V> {
     /// One span: what is hidden at its start costs the comparison and one addition for each pixel, and nothing else is looked
     /// at before the first visible one. How many pixels are left where one behind a visible one is hidden.
     #[inline(always)]
-    fn span<C, D, F>(&self, weights: &Weights, color: &mut C, depth: &mut D, span: &Span, fragment: &F) -> usize
+    fn span<C, D, F>(&self, color: &mut C, depth: &mut D, span: &Span, fragment: &F) -> usize
     where
         C: Target,
         D: Depth,
@@ -297,7 +297,7 @@ impl<V: Varying> Inside<V> {
                 return 0;
             }
             if !V::Slopes::DRAWS {
-                self.shade(pixels, weights.place(left, row), fragment);
+                self.shade(pixels, (left, row), fragment);
             } else if D::ENABLED {
                 self.draw_visible::<D, F>(span, pixels, depth.cells(span), fragment);
             } else {
@@ -311,7 +311,7 @@ impl<V: Varying> Inside<V> {
         };
         let column = right.wrapping_sub(cells.size_hint().0 as i32);
         let pixels = color.span(row, column, right);
-        self.shade_visible::<D, F>(pixels, cells, fine, weights.place(column, row), fragment)
+        self.shade_visible::<D, F>(pixels, cells, fine, (column, row), fragment)
     }
 
     /// Spans of `columns` from row `top` on; whether the targets have blocks.
@@ -400,20 +400,14 @@ impl<V: Varying> Inside<V> {
     /// What is left of a span where something hides a pixel behind a visible one: pixel by pixel.
     #[cold]
     #[inline(never)]
-    pub(crate) fn shade_others<C, D, F>(
-        &self,
-        color: &mut C,
-        depth: &mut D,
-        span: &Span,
-        weights: &Weights,
-        fragment: &F,
-    ) where
+    pub(crate) fn shade_others<C, D, F>(&self, color: &mut C, depth: &mut D, span: &Span, fragment: &F)
+    where
         C: Target,
         D: Depth,
         F: Fragment<Pixel = C::Pixel, Varying = V>,
     {
         let Span { row, left, right, .. } = *span;
-        let mut ramps = self.slopes.ramps(weights.place(left, row));
+        let mut ramps = self.slopes.ramps((left, row));
         let Ramp { value, step } = self.depth.ramp((left, row));
         let mut fine = value as u32;
         for (pixel, cell) in color.span(row, left, right).iter_mut().zip(depth.cells(span)) {

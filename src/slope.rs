@@ -18,7 +18,7 @@ use core::convert::Infallible;
 use crate::edge::{SUBPIXEL_BITS, SUBPIXELS};
 use crate::fragment::Fragment;
 use crate::gradient::Ramp;
-use crate::num::{high, high_sum, near_reciprocal, product, short_sum, sum_of_parts};
+use crate::num::{high, high_sum, near_reciprocal, product, short_sum, sum_of_parts, sum_of_signed_parts};
 use crate::span::Span;
 use crate::varying::Varying;
 
@@ -54,7 +54,7 @@ impl Weights {
     /// let weights = Weights::new([(0, 0), (0, 1024), (1024, 0)]).unwrap();
     /// // In units of 2^-16: 0 at (0, 0), 4 at (0, 4) and 8 at (4, 0).
     /// let slope = weights.slope([0, 4 << 16, 8 << 16]);
-    /// let at = |x, y| slope.ramp(weights.place(x, y)).value;
+    /// let at = |x, y| slope.ramp((x, y)).value;
     /// assert!(at(0, 0).abs() <= 8 && (at(2, 1) - (5 << 16)).abs() <= 8);
     /// ```
     #[inline]
@@ -145,12 +145,6 @@ impl Weights {
         (steepest.leading_zeros() + 1).saturating_sub(self.up).clamp(2, 10)
     }
 
-    /// Where [slopes](Self::slope) have the value of pixel (x, y): columns and rows from the picture's origin.
-    #[inline(always)]
-    pub fn place(&self, x: i32, y: i32) -> (i32, i32) {
-        (x, y)
-    }
-
     /// The slope through `values` at the triangle's corners, each less than 2^31 from the first.
     #[inline(always)]
     pub fn slope(&self, values: [i32; 3]) -> Slope {
@@ -170,52 +164,89 @@ impl Weights {
         }
     }
 
-    /// Of a small triangle, whose [`SMALL_UP`] is known beforehand.
+    /// An [anchored](Self::anchored) slope from the picture's origin on, once for all of its pixels: modulo 2^32 that is the same.
     #[inline(always)]
-    pub(crate) fn of_small(pixel: (i32, i32), anchor: (i32, i32), x: (i32, i32), y: (i32, i32)) -> Self {
-        Weights {
-            pixel,
-            anchor,
+    pub(crate) fn at_origin(&self, slope: Slope) -> Slope {
+        slope.moved_from(self.pixel)
+    }
+}
+
+/// The [`Weights`] of a [small](mod@crate::small) triangle, in units of 2^-27 whatever its size.
+///
+/// The value at the anchor is that of the first corner and a part of a step, so that the weights there need not be known.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct SmallWeights {
+    /// The anchor: the pixel whose sample is nearest to the first corner.
+    pixel: (i32, i32),
+    /// From the anchor to the first corner, in subpixels: −128…127.
+    part: (i32, i32),
+    /// Per column.
+    x: (i32, i32),
+    /// Per row.
+    y: (i32, i32),
+}
+
+impl SmallWeights {
+    /// With the first `corner`, in subpixels, and what a column and a row add, below 2^30.
+    #[inline(always)]
+    pub(crate) fn new(corner: (i32, i32), x: (i32, i32), y: (i32, i32)) -> Self {
+        let nearest = |v: i32| (v + SUBPIXELS / 2) >> SUBPIXEL_BITS;
+        let part = |v: i32| v << (32 - SUBPIXEL_BITS) >> (32 - SUBPIXEL_BITS);
+        SmallWeights {
+            pixel: (nearest(corner.0), nearest(corner.1)),
+            part: (part(corner.0), part(corner.1)),
             x,
             y,
+        }
+    }
+
+    /// The weights that any other triangle has.
+    #[inline(always)]
+    pub(crate) fn wide(&self) -> Weights {
+        let at = |x: i32, y: i32| sum_of_signed_parts((x, y), self.part);
+        Weights {
+            pixel: self.pixel,
+            anchor: (at(self.x.0, self.y.0), at(self.x.1, self.y.1)),
+            x: self.x,
+            y: self.y,
             up: SMALL_UP,
             anchor_up: SMALL_UP,
         }
     }
 
-    /// As [`slope`](Self::slope), of a small triangle.
+    /// The slope through `values` at the triangle's corners, each less than 2^31 from the first.
     #[inline(always)]
-    pub(crate) fn small_slope(&self, [a, b, c]: [i32; 3]) -> Slope {
+    pub(crate) fn slope(&self, [a, b, c]: [i32; 3]) -> Slope {
         let values = (b.wrapping_sub(a), c.wrapping_sub(a));
-        let dot = |weights| high_sum(values, weights) << SMALL_UP;
-        self.at_origin(Slope {
-            value: a.wrapping_sub(dot(self.anchor)),
-            x: dot(self.x),
-            y: dot(self.y),
-        })
+        let (x, y) = (high_sum(values, self.x), high_sum(values, self.y));
+        let slope = Slope {
+            value: a.wrapping_sub(sum_of_signed_parts((x, y), self.part) << SMALL_UP),
+            x: x << SMALL_UP,
+            y: y << SMALL_UP,
+        };
+        slope.moved_from(self.pixel)
     }
 
-    /// As [`anchored`](Self::anchored), of a small triangle, in 2^[`SMALL_UP`] units of `values` whose differences, below
+    /// As [`slope`](Self::slope), from the anchor on, in 2^[`SMALL_UP`] units of `values` whose differences, below
     /// 2^(14 + `CUT`), are cut to 2^`CUT` units: products of 32 bits.
+    ///
+    /// Steps are below 2^23, and a part of them fits a word.
     #[inline(always)]
     pub(crate) fn short<const CUT: u32>(&self, [a, b, c]: [i32; 3]) -> Slope {
         let values = (b.wrapping_sub(a) >> CUT, c.wrapping_sub(a) >> CUT);
-        let dot = |weights| short_sum::<CUT>(values, weights);
+        let (x, y) = (short_sum::<CUT>(values, self.x), short_sum::<CUT>(values, self.y));
+        let part = x * self.part.0 + y * self.part.1;
         Slope {
-            value: (a >> SMALL_UP).wrapping_sub(dot(self.anchor)),
-            x: dot(self.x),
-            y: dot(self.y),
+            value: (a >> SMALL_UP).wrapping_sub(part >> SUBPIXEL_BITS),
+            x,
+            y,
         }
     }
 
-    /// An [anchored](Self::anchored) slope from the picture's origin on, once for all of its pixels: modulo 2^32 that is the same.
+    /// As [`Weights::at_origin`].
     #[inline(always)]
     pub(crate) fn at_origin(&self, slope: Slope) -> Slope {
-        let (columns, rows) = (self.pixel.0.wrapping_neg(), self.pixel.1.wrapping_neg());
-        Slope {
-            value: slope.ramp((columns, rows)).value,
-            ..slope
-        }
+        slope.moved_from(self.pixel)
     }
 }
 
@@ -244,7 +275,7 @@ pub struct Slope {
 }
 
 impl Slope {
-    /// Along a row from a place on, as [`Weights::place`] gives it.
+    /// Along a row from a pixel on: columns and rows from the picture's origin.
     #[inline(always)]
     pub fn ramp(&self, (columns, rows): (i32, i32)) -> Ramp<i32> {
         let value = self.value.wrapping_add(self.y.wrapping_mul(rows));
@@ -256,6 +287,15 @@ impl Slope {
 }
 
 impl Slope {
+    /// From the origin on instead of an anchor's `pixel`.
+    #[inline(always)]
+    fn moved_from(&self, (column, row): (i32, i32)) -> Slope {
+        Slope {
+            value: self.ramp((column.wrapping_neg(), row.wrapping_neg())).value,
+            ..*self
+        }
+    }
+
     /// Of 2^`up` times the value.
     #[inline(always)]
     pub(crate) fn shifted(&self, up: u32) -> Slope {
@@ -281,8 +321,8 @@ pub trait Slopes<V: Varying>: Sized {
     fn new(weights: &Weights, corners: [V; 3]) -> Option<Self>;
     /// As [`new`](Self::new), of a triangle below 16 columns and rows.
     #[inline(always)]
-    fn small(weights: &Weights, corners: [V; 3]) -> Option<Self> {
-        Self::new(weights, corners)
+    fn small(weights: &SmallWeights, corners: [V; 3]) -> Option<Self> {
+        Self::new(&weights.wide(), corners)
     }
     /// Along a row from a place on.
     fn ramps(&self, place: (i32, i32)) -> V::Ramps;

@@ -24,9 +24,9 @@ use crate::depth::Depth;
 use crate::draw::Inside;
 use crate::edge::{SUBPIXEL_BITS, SUBPIXELS, first_row};
 use crate::fragment::Fragment;
-use crate::num::{high, nearer_reciprocal, sum_of_signed_parts};
+use crate::num::{high, nearer_reciprocal};
 use crate::screen::Shape;
-use crate::slope::{SMALL_UP, Slope, Slopes, Weights};
+use crate::slope::{SMALL_UP, Slope, Slopes, SmallWeights};
 use crate::span::Span;
 use crate::target::Target;
 use crate::varying::Varying;
@@ -77,17 +77,17 @@ where
         return false;
     };
     if !paint_block(inside, color, depth, &found, &spans, fragment) {
-        paint_rows(inside, color, depth, (part, weights), &spans, fragment);
+        paint_rows(inside, color, depth, part, &spans, fragment);
     }
     true
 }
 
 /// All that is interpolated over a small triangle, from the first sample of its box on.
 #[inline(always)]
-fn values<D: Depth, S: Shape>(weights: &Weights, shape: &S) -> Option<Inside<S::Varying>> {
+fn values<D: Depth, S: Shape>(weights: &SmallWeights, shape: &S) -> Option<Inside<S::Varying>> {
     let mut depth = Slope::default();
     if D::ENABLED {
-        depth = weights.small_slope([0, 1, 2].map(|i| shape.depth(i)));
+        depth = weights.slope([0, 1, 2].map(|i| shape.depth(i)));
         depth.value = depth.value.wrapping_add(1 << 14);
         // Nothing of the others is loaded before that is done, as if there were registers for all.
         black_box(());
@@ -166,7 +166,7 @@ fn paint_rows<C, D, F>(
     inside: &Inside<F::Varying>,
     color: &mut C,
     depth: &mut D,
-    (part, weights): (&Window, &Weights),
+    part: &Window,
     spans: &Spans,
     fragment: &F,
 ) where
@@ -179,7 +179,7 @@ fn paint_rows<C, D, F>(
         let [from, count] = span.to_le_bytes().map(i32::from);
         let span = Span::new(row, (part.left + from, part.left + from + count), &window);
         if span.left < span.right && (window.top..window.bottom).contains(&row) {
-            inside.shade_others(color, depth, &span, weights, fragment);
+            inside.shade_others(color, depth, &span, fragment);
         }
     }
 }
@@ -211,7 +211,7 @@ enum Found {
     Rows {
         part: Window,
         whole: bool,
-        weights: Weights,
+        weights: SmallWeights,
     },
 }
 
@@ -271,7 +271,7 @@ fn find<const CARRIES: bool, E: Side>(corners: &[Point; 3], window: &Window, spa
     if part.top > first {
         skip(spans, (part.top - first) as usize, (end - part.top).max(0) as usize);
     }
-    let mut weights = Weights::default();
+    let mut weights = SmallWeights::default();
     if CARRIES && !lay(&mut weights, corners, extent) {
         return Found::Large;
     }
@@ -308,7 +308,7 @@ fn walk<E: Side>(left: &mut E, right: &mut E, spans: &mut [u16]) -> i32 {
 ///
 /// With an area of 32 − `zeros` bits a weight is below 2^(4 + bits of a side + `zeros`) in units of 2^-(32 − up): within 2^30.
 #[inline(always)]
-fn lay(weights: &mut Weights, &[a, b, c]: &[Point; 3], extent: u32) -> bool {
+fn lay(weights: &mut SmallWeights, &[a, b, c]: &[Point; 3], extent: u32) -> bool {
     let ((x1, y1), (x2, y2)) = ((b.0 - a.0, b.1 - a.1), (c.0 - a.0, c.1 - a.1));
     let area = x1 * y2 - y1 * x2;
     let sign = area >> 31;
@@ -323,11 +323,7 @@ fn lay(weights: &mut Weights, &[a, b, c]: &[Point; 3], extent: u32) -> bool {
     let weight = |side: i32, reciprocal: i32| high(side.wrapping_shl(zeros + SMALL_UP), reciprocal);
     let x = (weight(y2, reciprocal), weight(y1, -reciprocal));
     let y = (weight(x2, -reciprocal), weight(x1, reciprocal));
-    // From the nearest sample, so that it is less than a pixel off.
-    let pixel = |v: i32| (v + SUBPIXELS / 2) >> SUBPIXEL_BITS;
-    let part = (a.0 << 24 >> 24, a.1 << 24 >> 24);
-    let at = |x: i32, y: i32| sum_of_signed_parts((x, y), part);
-    *weights = Weights::of_small((pixel(a.0), pixel(a.1)), (at(x.0, y.0), at(x.1, y.1)), x, y);
+    *weights = SmallWeights::new(a, x, y);
     true
 }
 

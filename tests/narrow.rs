@@ -217,7 +217,7 @@ proptest! {
             let slope = weights.slope(values);
             for (x, y) in positions(case.window).filter(|&at| naive::covers(case.corners, at.0, at.1)) {
                 let (numerator, area) = naive::value(case.corners, values.map(i64::from), x, y);
-                let error = slope.ramp(weights.place(x, y)).value as f64 - numerator as f64 / area as f64;
+                let error = slope.ramp((x, y)).value as f64 - numerator as f64 / area as f64;
                 prop_assert!(error.abs() <= stated, "({}, {}), {} bits: {} units off", x, y, 31 - shift, error);
             }
         }

@@ -2,7 +2,7 @@
 
 use super::{Varying, each, lay};
 use crate::gradient::{Basis, Place, Plane, Ramp};
-use crate::slope::{Slope, Slopes, Weights};
+use crate::slope::{Slope, Slopes, SmallWeights, Weights};
 
 /// A colour for RGB565 targets, linear over the screen: red and blue in units of 2^-16 of 0…31, green of 0…63, each with
 /// the half that makes cutting off round to nearest, so within 0.5…31.5 and 0.5…63.5.
@@ -91,7 +91,7 @@ impl Slopes<Color565> for Color565Slopes {
     }
     /// In 2^-11 level, cut down: over 32 rows and columns less than a 64th of a level (`tests/small.rs`).
     #[inline(always)]
-    fn small(weights: &Weights, [Color565(a), Color565(b), Color565(c)]: [Color565; 3]) -> Option<Self> {
+    fn small(weights: &SmallWeights, [Color565(a), Color565(b), Color565(c)]: [Color565; 3]) -> Option<Self> {
         let ([ra, ga, ba], [rb, gb, bb], [rc, gc, bc]) = (a, b, c);
         let (red, blue) = (weights.short::<7>([ra, rb, rc]), weights.short::<7>([ba, bb, bc]));
         let green = weights.short::<8>([ga, gb, gc]);

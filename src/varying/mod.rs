@@ -5,7 +5,7 @@ use core::hint::black_box;
 
 use crate::fragment::Fragment;
 use crate::gradient::{Basis, Place, Plane};
-use crate::slope::{Slopes, Weights};
+use crate::slope::{Slopes, SmallWeights, Weights};
 
 mod color565;
 mod linear;
@@ -142,7 +142,7 @@ impl<A: Varying, B: Varying> Slopes<(A, B)> for (A::Slopes, B::Slopes) {
         Some((first, B::Slopes::new(weights, corners.map(|corner| corner.1))?))
     }
     #[inline(always)]
-    fn small(weights: &Weights, corners: [(A, B); 3]) -> Option<Self> {
+    fn small(weights: &SmallWeights, corners: [(A, B); 3]) -> Option<Self> {
         let first = A::Slopes::small(weights, corners.map(|corner| corner.0))?;
         Some((first, B::Slopes::small(weights, corners.map(|corner| corner.1))?))
     }
