@@ -188,9 +188,16 @@ where
         if area != 0 {
             rows_of_triangle::<W, _, _, _, _>(color, depth, shape, area > 0, fragment);
         }
-    } else {
-        let spans = Scan::<W, _>::new(outline, area > 0);
+        return;
+    }
+    let spans = Scan::<W, _>::new(outline, area > 0);
+    if D::ENABLED || <F::Varying as Varying>::Slopes::CARRIES {
         paint(color, depth, shape, &Basis::new(outline), &spans, fragment);
+    } else if let Some(inside) = Inside::<F::Varying>::new::<D, _>(&Weights::default(), shape) {
+        // Nothing is interpolated: no plane, and no basis of any.
+        spans.each(depth.limit(color.window()), |span| {
+            inside.span(color, depth, &span, fragment);
+        });
     }
 }
 
