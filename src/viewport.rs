@@ -134,19 +134,7 @@ impl<W: Word> Viewport<W> {
             return None;
         }
         let divisor = w.twice();
-        let coordinate = |v: T, scale: i32, center: i32| {
-            let from_center = rounded(v, scale, w);
-            let numerator = from_center + T::from_i32(center).times(w) + T::from_i32(center).times(w);
-            // So far out that the quotient might not fit.
-            let far = T::from_i32(FARTHEST).times(w) + T::from_i32(FARTHEST).times(w);
-            if numerator >= far {
-                return limit;
-            }
-            if numerator < -far {
-                return -limit;
-            }
-            T::large_quotient(numerator, &divisor).clamp(-limit, limit)
-        };
+        let coordinate = |v, scale, center| coordinate(v, w, &divisor, (scale, center), limit);
         let depth = match range {
             DepthRange::ZeroToOne => z.max(T::ZERO).min(w),
             DepthRange::MinusOneToOne => z.max(-w).min(w),
@@ -296,6 +284,24 @@ const FARTHEST: i32 = i32::MAX - 16;
 fn rounded<T: Word>(v: T, scale: i32, w: T) -> T::Wide {
     let distance = v.times(T::from_i32(scale));
     distance + distance + w.widen()
+}
+
+/// v/w in subpixels, to the nearest, within ±`limit`.
+///
+/// A function of its own: it is called for both coordinates.
+#[inline(never)]
+fn coordinate<T: Word>(v: T, w: T, twice_w: &T::Divisor, (scale, center): (i32, i32), limit: i32) -> i32 {
+    let from_center = rounded(v, scale, w);
+    let numerator = from_center + T::from_i32(center).times(w) + T::from_i32(center).times(w);
+    // So far out that the quotient might not fit.
+    let far = T::from_i32(FARTHEST).times(w) + T::from_i32(FARTHEST).times(w);
+    if numerator >= far {
+        return limit;
+    }
+    if numerator < -far {
+        return -limit;
+    }
+    T::large_quotient(numerator, twice_w).clamp(-limit, limit)
 }
 
 /// Depth in units of 2^-15 step, for a z in the range.

@@ -39,7 +39,26 @@ impl<T: Word, const N: usize> Block<T, N> {
     /// A function of its own: constants are made of it in many places of a program.
     #[inline(never)]
     pub fn new(mantissas: [T; N], exponent: i32) -> Self {
-        Self::from_wide(mantissas.map(T::widen), exponent)
+        let bits = mantissas.iter().fold(0, |bits, m| m.bit_length().max(bits));
+        if bits == 0 {
+            return Self::ZERO;
+        }
+        let up = T::BITS.wrapping_sub(bits) as i32;
+        // In place of what is given, callers would have to keep another.
+        let mut block = Block {
+            mantissas: [T::ZERO; N],
+            exponent: exponent.saturating_sub(up),
+        };
+        for (to, &m) in block.mantissas.iter_mut().zip(&mantissas) {
+            *to = if up >= 0 {
+                m << up as u32
+            } else {
+                // One bit too many: a half is rounded upwards.
+                let half = m >> up.wrapping_neg().wrapping_sub(1) as u32;
+                (half >> 1) + (half & T::ONE)
+            };
+        }
+        block
     }
 
     /// Small integers, |v| ≤ 2^30.

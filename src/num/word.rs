@@ -63,6 +63,8 @@ pub trait Word:
     fn from_q62(value: i64) -> Self;
     /// The same number with twice the width.
     fn widen(self) -> Self::Wide;
+    /// Bits of the magnitude: 0 for 0, 3 for ±5.
+    fn bit_length(self) -> u32;
     /// All bits set for a negative number, none for any other.
     fn sign(self) -> Self;
     /// Sum modulo 2 to the word's width, and whether it carries: of a negative number and one that is not, whether the sum is 0
@@ -145,6 +147,10 @@ macro_rules! word {
             #[inline(always)]
             fn sign(self) -> Self {
                 self >> (<$word>::BITS - 1)
+            }
+            #[inline(always)]
+            fn bit_length(self) -> u32 {
+                <$word>::BITS - self.unsigned_abs().leading_zeros()
             }
             #[inline(always)]
             fn carrying_add(self, other: Self) -> (Self, bool) {
