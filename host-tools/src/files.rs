@@ -164,6 +164,11 @@ fn beside(target: PathBuf, bytes: &[u8], mode: Option<Permissions>) -> io::Resul
             "expected the name of a file",
         ));
     }
+    let folder = folder_of(&target);
+    if !folder.exists() {
+        let message = format!("there is no folder {}", folder.display());
+        return Err(io::Error::new(io::ErrorKind::NotFound, message));
+    }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".host-render-").suffix(".part");
     #[cfg(unix)]
@@ -172,7 +177,7 @@ fn beside(target: PathBuf, bytes: &[u8], mode: Option<Permissions>) -> io::Resul
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(Permissions::from_mode(0o666));
     }
-    let mut file = builder.tempfile_in(folder_of(&target)).map_err(without_name)?;
+    let mut file = builder.tempfile_in(folder).map_err(without_name)?;
     file.write_all(bytes).map_err(without_name)?;
     if let Some(mode) = mode {
         file.as_file().set_permissions(mode)?;

@@ -342,7 +342,14 @@ fn files_that_cannot_be_had() {
     std::fs::create_dir(folder.path("out.png")).expect("a folder");
     for (arguments, file) in [
         ("a.txt", "out.png: "),
-        ("a.txt -o nosuch/x.png", "nosuch/x.png: "),
+        (
+            "a.txt -o nosuch/x.png",
+            "nosuch/x.png: cannot write: there is no folder nosuch\n",
+        ),
+        (
+            "a.txt --out-dir nosuch",
+            "nosuch/out.png: cannot write: there is no folder nosuch\n",
+        ),
         ("a.txt --out-dir a.txt", "a.txt/out.png: "),
         ("a.txt -o x.png --diff-out nosuch/x.png", "nosuch/x.png: "),
         ("a.txt -o new/", "new/: "),

@@ -277,3 +277,22 @@ impl<T: Word> Block<T, 3> {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_normalised_as_wide_ones_are() {
+        let ends = [0, 1, -1, 3, -5, 0x1fff_ffff, -0x2000_0000, 0x3fff_fffe, 0x3fff_ffff];
+        for a in ends.into_iter().chain([1 << 30, -(1 << 30), i32::MAX, i32::MIN]) {
+            for b in ends {
+                let wide = Block::<i32, 2>::from_wide([a as i64, b as i64], 7);
+                assert_eq!(Block::new([a, b], 7), wide, "{a} {b}");
+                let (c, d) = ((a as i64) << 31 | 1, (b as i64) << 32 | 1);
+                let wide = Block::<i64, 2>::from_wide([c as i128, d as i128], -9);
+                assert_eq!(Block::new([c, d], -9), wide, "{c} {d}");
+            }
+        }
+    }
+}

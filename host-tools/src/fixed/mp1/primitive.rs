@@ -184,8 +184,8 @@ impl<W: Word> Brush<'_, W> {
         }
     }
 
-    /// Whether values are divided. Those that the dial leaves undivided are as in a scene without `hyp`; lines are too
-    /// thin for subspans.
+    /// Whether values are divided. Those that the dial leaves undivided are as in a scene without `hyp`; lines know no table, and
+    /// are divided at every pixel otherwise.
     fn in_perspective(&self) -> bool {
         self.switches.hyp && self.dials.perspective != dials::Perspective::Affine
     }
