@@ -67,7 +67,7 @@ impl<T: Word> Matrix<T> {
     /// The point M·v, rounded once: 2^-BITS of its largest component.
     pub fn transform(&self, v: Block<T, 4>) -> Block<T, 4> {
         let m = v.mantissas();
-        Block::from_wide(
+        Block::from_wide_here(
             self.rows().map(|r| dot(r, m)),
             self.0.exponent().saturating_add(v.exponent()),
         )
@@ -79,7 +79,7 @@ impl<T: Word> Matrix<T> {
     pub fn transform_point(&self, [x, y, z]: [i16; 3]) -> Block<T, 4> {
         let point = [x as i32, y as i32, z as i32, 1 << 15].map(T::from_i32);
         let [a, b, c, d] = self.rows();
-        Block::from_wide(
+        Block::from_wide_here(
             [dot(a, point), dot(b, point), dot(c, point), dot(d, point)],
             self.0.exponent().saturating_sub(15),
         )

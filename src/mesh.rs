@@ -327,6 +327,6 @@ impl Normalized for [i32; 3] {
     #[inline]
     fn point<T: Word>(self) -> Block<T, 4> {
         let [x, y, z] = self.map(|c| T::from_i32(c).widen());
-        Block::from_wide([x, y, z, T::ONE.widen() << 30], -30)
+        Block::from_wide_here([x, y, z, T::ONE.widen() << 30], -30)
     }
 }

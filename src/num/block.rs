@@ -69,8 +69,20 @@ impl<T: Word, const N: usize> Block<T, N> {
 
     /// The numbers `values[i] · 2^exponent`, rounded to nearest at the shared scale.
     #[inline]
-    pub fn from_wide(values: [T::Wide; N], exponent: i32) -> Self {
+    pub fn from_wide(mut values: [T::Wide; N], exponent: i32) -> Self {
+        let bits = T::Wide::normalize(&mut values);
+        Self::of_normalized(values.map(T::Wide::narrow), bits, exponent)
+    }
+
+    /// As [`from_wide`](Self::from_wide), where a call would cost more than the code: of every vertex.
+    #[inline]
+    pub(crate) fn from_wide_here(values: [T::Wide; N], exponent: i32) -> Self {
         let (mantissas, bits) = T::Wide::normalized(values);
+        Self::of_normalized(mantissas, bits, exponent)
+    }
+
+    #[inline(always)]
+    fn of_normalized(mantissas: [T; N], bits: u32, exponent: i32) -> Self {
         if bits == 0 {
             return Self::ZERO;
         }

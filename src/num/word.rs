@@ -103,6 +103,8 @@ pub trait Wide:
     /// All numbers times the same power of two, so that the largest has [`Word::BITS`] bits, halves rounded upwards; and
     /// the bits that the largest had. All 0 for all 0.
     fn normalized<const N: usize>(values: [Self; N]) -> ([Self::Word; N], u32);
+    /// As [`normalized`](Self::normalized), in place. A function of its own: the same for however many numbers.
+    fn normalize(values: &mut [Self]) -> u32;
     /// The low half; the caller has shown that the rest is sign.
     fn narrow(self) -> Self::Word;
     /// Quotient rounded down, for a positive divisor; 0 for any other.
@@ -111,6 +113,32 @@ pub trait Wide:
     fn isqrt(self) -> Self;
     /// Exact product with a small constant; the caller has shown that it fits.
     fn times_small(self, factor: i32) -> Self;
+}
+
+/// [`Wide::normalize`], where it stands.
+macro_rules! normalize {
+    ($values:ident, $word:ty, $wide:ty) => {{
+        const WORD: u32 = <$word>::BITS;
+        // The longest of the magnitudes is as long as all of them laid over one another.
+        let all = $values.iter().fold(0, |all, v| all | v.unsigned_abs());
+        let bits = <$wide>::BITS - all.leading_zeros();
+        // One bit more than a mantissa has, at the top of the upper half, which rounds as it is cut off. Only numbers
+        // that fill their word have no room for the sign that way.
+        let fills = bits == <$wide>::BITS;
+        let up = if fills {
+            0
+        } else {
+            (<$wide>::BITS - 1 - bits) & (<$wide>::BITS - 1)
+        };
+        for v in $values.iter_mut() {
+            let mut top = ((*v << up) >> WORD) as $word;
+            if fills {
+                top >>= 1;
+            }
+            *v = ((top >> 1) + (top & 1)) as $wide;
+        }
+        bits
+    }};
 }
 
 macro_rules! word {
@@ -197,28 +225,13 @@ macro_rules! word {
                 <$wide>::BITS - self.unsigned_abs().leading_zeros()
             }
             #[inline(always)]
-            fn normalized<const N: usize>(values: [Self; N]) -> ([$word; N], u32) {
-                const WORD: u32 = <$word>::BITS;
-                // The longest of the magnitudes is as long as all of them laid over one another.
-                let all = values.iter().fold(0, |all, v| all | v.unsigned_abs());
-                let bits = <$wide>::BITS - all.leading_zeros();
-                let mut mantissas = [0; N];
-                // One bit more than a mantissa has, at the top of the upper half, which rounds as it is cut off. Only numbers
-                // that fill their word have no room for the sign that way.
-                let fills = bits == <$wide>::BITS;
-                let up = if fills {
-                    0
-                } else {
-                    (<$wide>::BITS - 1 - bits) & (<$wide>::BITS - 1)
-                };
-                for (mantissa, v) in mantissas.iter_mut().zip(values) {
-                    let mut top = ((v << up) >> WORD) as $word;
-                    if fills {
-                        top >>= 1;
-                    }
-                    *mantissa = (top >> 1) + (top & 1);
-                }
-                (mantissas, bits)
+            fn normalized<const N: usize>(mut values: [Self; N]) -> ([$word; N], u32) {
+                let bits = normalize!(values, $word, $wide);
+                (values.map(|v| v as $word), bits)
+            }
+            #[inline(never)]
+            fn normalize(values: &mut [Self]) -> u32 {
+                normalize!(values, $word, $wide)
             }
             #[inline(always)]
             fn narrow(self) -> $word {
