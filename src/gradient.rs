@@ -409,5 +409,47 @@ fn saturated(value: i64) -> i32 {
 #[cold]
 #[inline(never)]
 fn steepest(step: i64, steps: i32, range: i64) -> i64 {
-    range.checked_div(steps as i64).unwrap_or(0) * step.signum()
+    // Digits of 15 bits, by hand: it would be the only division of 64 bits of a small program. What is left of a digit is less
+    // than the steps, of which there are less than 2^17.
+    let divisor = steps as u32;
+    let (mut quotient, mut rest) = (0i64, 0u32);
+    for down in [45, 30, 15, 0] {
+        let part = rest << 15 | (range >> down) as u32 & 0x7fff;
+        let digit = part.checked_div(divisor).unwrap_or(0);
+        quotient = quotient << 15 | digit as i64;
+        rest = part.wrapping_sub(digit.wrapping_mul(divisor));
+    }
+    quotient * step.signum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::steepest;
+
+    #[test]
+    fn the_steepest_step_is_the_quotient() {
+        let ends = [
+            0,
+            1,
+            2,
+            32766,
+            32767,
+            32768,
+            65535,
+            (1 << 31) - 1,
+            1 << 45,
+            (1 << 46) - 1,
+        ];
+        for range in ends.into_iter().chain((0..46).map(|bits| (1 << bits) + 12345)) {
+            for steps in (1..1 << 17)
+                .step_by(997)
+                .chain([2, 3, 4096, 65535, 65536, (1 << 17) - 1])
+            {
+                for step in [-7, 0, 1 << 40] {
+                    let expected = range / steps as i64 * i64::signum(step);
+                    assert_eq!(steepest(step, steps, range), expected, "{range} / {steps}");
+                }
+            }
+        }
+    }
 }

@@ -67,7 +67,24 @@ proptest! {
     #[test]
     fn nothing_panics(divisor in any::<u32>(), numerator in any::<i64>()) {
         let by = Divisor::new(divisor);
-        let _ = (by.floor(numerator), by.floor_small(numerator));
+        let _ = (by.floor(numerator), by.floor_small(numerator), (numerator as i32).ratio(divisor as i32));
+    }
+
+    /// Of numbers up to twice the divisor, whatever its length.
+    #[test]
+    fn ratios(divisor in 1..=1i32 << 30, shift in 0..30u32, part in any::<u32>(), off in -2..3i64) {
+        let divisor = (divisor >> shift).max(1) as i64;
+        for at in [0, divisor, 2 * divisor, (part as i64 * 2 * divisor) >> 32] {
+            for numerator in [at + off, -at + off] {
+                if numerator.abs() <= 2 * divisor {
+                    let expected = (numerator << 30).div_euclid(divisor);
+                    let found = (numerator as i32).ratio(divisor as i32);
+                    prop_assert_eq!(found, expected, "{} / {}", numerator, divisor);
+                    let expected = ((numerator as i128) << 62).div_euclid(divisor as i128);
+                    prop_assert_eq!(numerator.ratio(divisor), expected, "{} / {}", numerator, divisor);
+                }
+            }
+        }
     }
 
     /// What divides in the geometry, both words alike.

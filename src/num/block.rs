@@ -211,7 +211,7 @@ impl<T: Word, const N: usize> Block<T, N> {
             return None;
         }
         let (block, d) = if d < T::ZERO { (self.negated(), -d) } else { (self, d) };
-        let quotients = block.mantissas.map(|m| (m.widen() << T::BITS).div_floor(d.widen()));
+        let quotients = block.mantissas.map(|m| m.ratio(d));
         let exponent = block
             .exponent
             .saturating_sub(divisor.exponent)

@@ -70,6 +70,22 @@ impl Divisor {
         self.corrected(numerator, estimate.wrapping_add(self.estimate::<SMALL>(remainder)))
     }
 
+    /// numerator · 2^30 / divisor, rounded down, for a positive divisor and a numerator of at most twice that, either way.
+    ///
+    /// A function of its own: the same for however many numbers.
+    #[inline(never)]
+    pub(super) fn ratio(numerator: i32, divisor: i32) -> i64 {
+        // Of what is beyond the divisor, so that the quotient is at most 1.
+        let (rest, whole) = if numerator >= divisor {
+            (numerator.wrapping_sub(divisor), 1i64 << 30)
+        } else if numerator <= divisor.wrapping_neg() {
+            (numerator.wrapping_add(divisor), -1i64 << 30)
+        } else {
+            (numerator, 0)
+        };
+        Divisor::new(divisor as u32).floor((rest as i64) << 30) as i64 + whole
+    }
+
     /// A quotient of less than 2^`BITS`.
     #[inline(always)]
     fn estimate<const BITS: u32>(&self, numerator: i64) -> i32 {

@@ -74,6 +74,8 @@ pub trait Word:
     fn times(self, other: Self) -> Self::Wide;
     /// Quotient rounded down and remainder in 0…divisor−1, for a positive divisor; 0, 0 for any other.
     fn div_rem_floor(self, divisor: Self) -> (Self, Self);
+    /// self · 2^[`BITS`](Word::BITS) / divisor rounded down, for a positive divisor and a magnitude of at most twice that.
+    fn ratio(self, divisor: Self) -> Self::Wide;
     /// Twice this word, from 1 to 2^[`BITS`](Word::BITS), to divide by.
     fn twice(self) -> Self::Divisor;
     /// numerator/divisor rounded down, where that lies within ±2^26.
@@ -207,6 +209,10 @@ macro_rules! word {
                 <$divisor>::new((self as u64).wrapping_mul(2) as _)
             }
             #[inline(always)]
+            fn ratio(self, divisor: Self) -> $wide {
+                <$divisor>::ratio(self, divisor)
+            }
+            #[inline(always)]
             fn quotient(numerator: $wide, divisor: &$divisor) -> i32 {
                 divisor.floor_small(numerator)
             }
@@ -266,6 +272,9 @@ impl Plain {
     }
     fn floor(self, numerator: i128) -> i32 {
         Wide::div_floor(numerator, self.0) as i32
+    }
+    fn ratio(numerator: i64, divisor: i64) -> i128 {
+        Wide::div_floor((numerator as i128) << <i64 as Word>::BITS, divisor as i128)
     }
 }
 

@@ -277,12 +277,9 @@ impl<const N: usize> Carried for Perspective<N> {
         // At most 1 but for the rounding of three: far from overflow.
         let [a, b, c] = weights.space;
         let inverse = a.saturating_add(b).saturating_add(c);
-        let values = weights.pick(vertices).unwrap_or_else(|| {
-            over_w.map(|v| {
-                let quotient = ((v as i64) << 30).checked_div(inverse as i64).unwrap_or(0);
-                quotient.clamp(i32::MIN as i64, i32::MAX as i64) as i32
-            })
-        });
+        let values = weights
+            .pick(vertices)
+            .unwrap_or_else(|| over_w.map(|v| over(v, inverse)));
         Perspective {
             over_w,
             inverse,
@@ -366,6 +363,19 @@ impl<A: Carried, B: Carried> Carried for (A, B) {
         let (first, second) = (vertices.map(|v| v.0), vertices.map(|v| v.1));
         (A::between(first, weights), B::between(second, weights))
     }
+}
+
+/// value/w over 1/w in units of 2^-30, cut towards 0 and saturating; 0 where 1/w is.
+#[inline(never)]
+fn over(value: i32, inverse: i32) -> i32 {
+    let (magnitude, divisor) = (value.saturating_abs(), inverse.saturating_abs());
+    let quotient = match divisor {
+        0 => return 0,
+        _ if magnitude >> 1 >= divisor => i64::MAX,
+        _ => magnitude.ratio(divisor),
+    };
+    let quotient = if value ^ inverse < 0 { -quotient } else { quotient };
+    quotient.clamp(i32::MIN as i64, i32::MAX as i64) as i32
 }
 
 /// Σ share · value, rounded.
