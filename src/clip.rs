@@ -456,10 +456,9 @@ pub(crate) fn to_view<T: Word, W: Word>(
         return (!polygon.held().is_empty()).then_some(());
     }
     if behind == Behind::Divide {
-        if polygon.held().iter().any(|corner| w_of(corner) == T::ZERO) {
-            return None;
-        }
+        let mut at_infinity = false;
         polygon.each(|corner| {
+            at_infinity |= w_of(corner) == T::ZERO;
             if w_of(corner) < T::ZERO {
                 // The same point on the screen; the weights keep the sign for what is divided by w.
                 *corner = ClipCorner {
@@ -468,6 +467,9 @@ pub(crate) fn to_view<T: Word, W: Word>(
                 };
             }
         });
+        if at_infinity {
+            return None;
+        }
     }
     ScreenPlanes::new(viewport, range).cut(polygon)?;
     (!polygon.held().is_empty() && polygon.held().iter().all(is_in_front)).then_some(())

@@ -173,7 +173,8 @@ impl Weights {
 
 /// The [`Weights`] of a [small](mod@crate::small) triangle, in units of 2^-27 whatever its size.
 ///
-/// The value at the anchor is that of the first corner and a part of a step, so that the weights there need not be known.
+/// The value at the anchor is that of the first corner and a part of a step, so that the weights there need not be known. What
+/// [`Slopes::small`] is given: a varying of your own that has no use for it gets [`Weights`] instead, if it leaves that as it is.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SmallWeights {
     /// The anchor: the pixel whose sample is nearest to the first corner.
