@@ -20,14 +20,17 @@ use crate::span::Span;
 /// apart a linear value v is off by at most |Δv|·|√ρ − 1|/(√ρ + 1), with ρ = Q₁/Q₀; with |Δv| = K·S/(Q₀·Q₁), where
 /// K = |U′·Q − U·Q′| does not change along a row, that is at most K·|Q′|·S²/(4·Q³) with the lesser Q. K is linear over the
 /// triangle, so largest at a corner. S is the least power of two that no row is wider than, and Q the least of the corners less
-/// what a row can reach beyond its end. Over the whole triangle v is within |Δv|·(√ρ − 1)/(√ρ + 1) of linear, with Δv and ρ over
+/// what a row can reach beyond its end, an eighth of it at most: a row is drawn between its first pixel and one that is the least power of two of pixels
+/// beyond it that reaches its last. Over the whole triangle v is within |Δv|·(√ρ − 1)/(√ρ + 1) of linear, with Δv and ρ over
 /// the corners. Rows are linear from the first pixel of the whole row on, so that a strip or tile has the bits of the whole
 /// picture.
 ///
-/// **Error**: `BOUND`, and with ρ the largest 1/w of the polygon over that of the pixel 2^-12·(1 + 2½·ρ + ρ²/64) of the largest
-/// value, or of 64 texels where that is more, that of slopes as for [`Perspective32`], 64 units, and one for each pixel of a row
-/// (`tests/subspans.rs`). Triangles with a ρ of 16 or more or with values of 2^26 units and more, and clipped polygons, divide at
-/// every pixel.
+/// **Error**: `BOUND`, and with ρ the largest 1/w of the polygon over that of the pixel 2^-12·(1 + 3·ρ + ρ²/48) of the largest
+/// value, or of what values differ by or of 64 texels where that is more, that of slopes as for [`Perspective32`], 64 units, and
+/// one for each pixel of a row (`tests/subspans.rs`). Where a pixel has its own reciprocal 2½ and 64 are enough in place of 3 and
+/// 48, but where a row is linear one end may have a w of 8/7 of the pixel's; and from the row's first pixel, of value −a, to its
+/// last, of b, at t ≥ ½ of the way to that end, what is relative to the values there adds up to that of 2·(1 − t)·a + b ≤ a + b.
+/// Triangles with a ρ of 16 or more or with values of 2^26 units and more, and clipped polygons, divide at every pixel.
 ///
 /// ```
 /// use fixel::varying::{Perspective, PerspectiveSpans};
@@ -59,8 +62,8 @@ enum Way {
     Linear,
     /// By [`at_pixel`]: `over_w` are in 2^-16 of what is left when value/w is cut, 1/w in 2^-31.
     Pixels(Cut),
-    /// The same at the ends of rows, 2^ the second number pixels apart.
-    Rows(Cut, u32),
+    /// The same at the ends of rows.
+    Rows(Cut),
     /// As [`Perspective32`] is: where 1/w varies by 16 or more, or not all of them have the same sign.
     Divided,
 }
@@ -117,11 +120,7 @@ impl<const N: usize> SpansSlopes<N> {
         SpansSlopes {
             over_w: each(&over_w, |slope| cut.done(slope)),
             inverse: inverse.shifted(1),
-            way: if are_linear {
-                Way::Rows(cut, length)
-            } else {
-                Way::Pixels(cut)
-            },
+            way: if are_linear { Way::Rows(cut) } else { Way::Pixels(cut) },
         }
     }
 
@@ -172,19 +171,21 @@ impl<const N: usize> SpansSlopes<N> {
                 );
             }
             Way::Pixels(cut) => self.at_pixels(span, cut, pixels, fragment),
-            Way::Rows(cut, length) => self.row(span, cut, length, pixels, fragment),
+            Way::Rows(cut) => self.row(span, cut, pixels, fragment),
         }
     }
 
-    /// Linear between the ends of a row.
+    /// Linear between the first pixel of a row and one beyond its middle: the least power of two apart that reaches the last.
     #[inline(never)]
-    fn row<F>(&self, span: &Span, cut: Cut, length: u32, pixels: &mut [F::Pixel], fragment: &F)
+    fn row<F>(&self, span: &Span, cut: Cut, pixels: &mut [F::Pixel], fragment: &F)
     where
         F: Fragment<Varying: Varying<Values = [i32; N]>>,
     {
         // From the first pixel of the whole row on, so that a window has the bits of the whole picture.
         let start = self.ramps((span.whole_left, span.row));
         let from = at_pixel(&start, cut, &RECIPROCALS);
+        let last = span.whole_right.wrapping_sub(span.whole_left).wrapping_sub(1).max(1);
+        let length = 32 - (last - 1).leading_zeros();
         let rises = rises(&start, cut, length);
         let mut ramps = [Ramp::default(); N];
         for (ramp, (&value, &step)) in ramps.iter_mut().zip(from.iter().zip(&rises)) {
@@ -257,8 +258,8 @@ fn at_pixel<const N: usize>(ramps: &Perspective32Ramps<N>, cut: Cut, reciprocals
     each(&ramps.over_w, |ramp| cut.undone(ramp.value >> 16, near))
 }
 
-/// What values rise by from pixel to pixel over 2^`length` pixels, which may reach beyond the row: value/w has room there for
-/// four times of what it has in the triangle, and 1/w, which is looked up up to 2, is cut by no more than value/w is.
+/// What values rise by from pixel to pixel over 2^`length` pixels, less than twice of what the row has: value/w and values
+/// are no more there than three times of what they are in the triangle, and 1/w is below 2.
 #[inline(always)]
 fn rises<const N: usize>(start: &Perspective32Ramps<N>, cut: Cut, length: u32) -> [i32; N] {
     let end = start.inverse.after(1 << length).value as u32;
@@ -268,11 +269,12 @@ fn rises<const N: usize>(start: &Perspective32Ramps<N>, cut: Cut, length: u32) -
         near(end >> half, &RECIPROCALS),
     );
     each(&start.over_w, |ramp| {
-        // In 2^-14 of what is left, and then in 2, rounded: 13 bits at the start, 5·2^13 at the end; by 15 bits.
-        let first = (ramp.value >> 2).wrapping_add(1 << 13);
-        let last = first.wrapping_add((ramp.step >> 2).wrapping_shl(length));
-        let last = (last >> 15 >> half).wrapping_mul(near_end);
-        cut.undone_rise(last.wrapping_sub((first >> 15).wrapping_mul(near_start)), length)
+        // In 2^-14 of what is left, so that there is room: below 3·2^28.
+        let last = (ramp.value >> 2).wrapping_add((ramp.step >> 2).wrapping_shl(length));
+        // Both below 3·2^29, then half of that: the same cut at the start as that pixel has.
+        let last = (last >> 14).wrapping_mul(near_end) >> 1 >> half;
+        let first = (ramp.value >> 16).wrapping_mul(near_start) >> 1;
+        cut.undone_rise(last.wrapping_sub(first), length)
     })
 }
 
@@ -315,12 +317,12 @@ impl Cut {
         }
     }
 
-    /// Per pixel, what a value of twice of what is left rises by, times w in 2^-11, over 2^`length` pixels, 4 or more.
+    /// Per pixel, what half the product of what is left and w in 2^-11 rises by over 2^`length` pixels.
     #[inline(always)]
     fn undone_rise(self, rise: i32, length: u32) -> i32 {
         match self {
             Cut::Ten => rise >> length,
-            Cut::Twelve => rise >> length.wrapping_sub(2),
+            Cut::Twelve => rise >> length.saturating_sub(2) << 2u32.saturating_sub(length),
         }
     }
 
@@ -387,8 +389,10 @@ impl Bound {
     /// whether (Q − |Q′|·S)³ ≥ K·|Q′|·S²/(4·bound). `bend` is K in units, `rise` |Q′| in 2^-30, `least` Q in 2^-30.
     #[inline(always)]
     fn allows_rows(self, length: u32, bend: u32, rise: u32, least: i32) -> bool {
-        let beyond = (least as i64).wrapping_sub((rise as i64) << length);
-        if beyond < 1 << 26 {
+        let reach = (rise as i64) << length;
+        let beyond = (least as i64).wrapping_sub(reach);
+        // No further from the camera than 8/7 of what the row is: the error there counts at its pixels.
+        if beyond < 1 << 26 || reach > (least >> 3) as i64 {
             return false;
         }
         // In 2^-15, and its cube in 2^-30, rounded down.
@@ -415,7 +419,7 @@ impl<const N: usize, const BOUND: u32> Slopes<PerspectiveSpans<N, BOUND>> for Sp
     fn values(&self, ramps: &Perspective32Ramps<N>) -> [i32; N] {
         match self.way {
             Way::Linear => each(&ramps.over_w, |ramp| ramp.value),
-            Way::Pixels(cut) | Way::Rows(cut, _) => at_pixel(ramps, cut, &RECIPROCALS),
+            Way::Pixels(cut) | Way::Rows(cut) => at_pixel(ramps, cut, &RECIPROCALS),
             Way::Divided => ramps.values(),
         }
     }
@@ -427,7 +431,7 @@ impl<const N: usize, const BOUND: u32> Slopes<PerspectiveSpans<N, BOUND>> for Sp
         // The usual one by a comparison.
         match self.way {
             Way::Pixels(Cut::Ten) => self.each_by_table::<F, true>(span, pixels, fragment),
-            Way::Rows(cut, length) => self.row(span, cut, length, pixels, fragment),
+            Way::Rows(cut) => self.row(span, cut, pixels, fragment),
             _ => self.draw_others(span, pixels, fragment),
         }
     }
