@@ -62,8 +62,8 @@ enum Way {
     Linear,
     /// By [`at_pixel`]: `over_w` are in 2^-16 of what is left when value/w is cut, 1/w in 2^-31.
     Pixels(Cut),
-    /// The same at the ends of rows.
-    Rows(Cut),
+    /// The same at the ends of rows, of which no two are more than 2^ the second number pixels apart.
+    Rows(Cut, u32),
     /// As [`Perspective32`] is: where 1/w varies by 16 or more, or not all of them have the same sign.
     Divided,
 }
@@ -120,7 +120,11 @@ impl<const N: usize> SpansSlopes<N> {
         SpansSlopes {
             over_w: each(&over_w, |slope| cut.done(slope)),
             inverse: inverse.shifted(1),
-            way: if are_linear { Way::Rows(cut) } else { Way::Pixels(cut) },
+            way: if are_linear {
+                Way::Rows(cut, length)
+            } else {
+                Way::Pixels(cut)
+            },
         }
     }
 
@@ -171,13 +175,13 @@ impl<const N: usize> SpansSlopes<N> {
                 );
             }
             Way::Pixels(cut) => self.at_pixels(span, cut, pixels, fragment),
-            Way::Rows(cut) => self.row(span, cut, pixels, fragment),
+            Way::Rows(cut, longest) => self.row(span, cut, longest, pixels, fragment),
         }
     }
 
     /// Linear between the first pixel of a row and one beyond its middle: the least power of two apart that reaches the last.
     #[inline(never)]
-    fn row<F>(&self, span: &Span, cut: Cut, pixels: &mut [F::Pixel], fragment: &F)
+    fn row<F>(&self, span: &Span, cut: Cut, longest: u32, pixels: &mut [F::Pixel], fragment: &F)
     where
         F: Fragment<Varying: Varying<Values = [i32; N]>>,
     {
@@ -185,7 +189,12 @@ impl<const N: usize> SpansSlopes<N> {
         let start = self.ramps((span.whole_left, span.row));
         let from = at_pixel(&start, cut, &RECIPROCALS);
         let last = span.whole_right.wrapping_sub(span.whole_left).wrapping_sub(1).max(1);
-        let length = 32 - (last - 1).leading_zeros();
+        // Seldom more than once or twice, which is less than to count leading zeros where no instruction does.
+        let (mut length, mut half) = (longest, 1 << longest >> 1);
+        while last <= half {
+            (length, half) = (length.wrapping_sub(1), half >> 1);
+            black_box(());
+        }
         let rises = rises(&start, cut, length);
         let mut ramps = [Ramp::default(); N];
         for (ramp, (&value, &step)) in ramps.iter_mut().zip(from.iter().zip(&rises)) {
@@ -419,7 +428,7 @@ impl<const N: usize, const BOUND: u32> Slopes<PerspectiveSpans<N, BOUND>> for Sp
     fn values(&self, ramps: &Perspective32Ramps<N>) -> [i32; N] {
         match self.way {
             Way::Linear => each(&ramps.over_w, |ramp| ramp.value),
-            Way::Pixels(cut) | Way::Rows(cut) => at_pixel(ramps, cut, &RECIPROCALS),
+            Way::Pixels(cut) | Way::Rows(cut, _) => at_pixel(ramps, cut, &RECIPROCALS),
             Way::Divided => ramps.values(),
         }
     }
@@ -431,7 +440,7 @@ impl<const N: usize, const BOUND: u32> Slopes<PerspectiveSpans<N, BOUND>> for Sp
         // The usual one by a comparison.
         match self.way {
             Way::Pixels(Cut::Ten) => self.each_by_table::<F, true>(span, pixels, fragment),
-            Way::Rows(cut) => self.row(span, cut, pixels, fragment),
+            Way::Rows(cut, longest) => self.row(span, cut, longest, pixels, fragment),
             _ => self.draw_others(span, pixels, fragment),
         }
     }
