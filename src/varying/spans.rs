@@ -20,10 +20,10 @@ use crate::span::Span;
 /// apart a linear value v is off by at most |Δv|·|√ρ − 1|/(√ρ + 1), with ρ = Q₁/Q₀; with |Δv| = K·S/(Q₀·Q₁), where
 /// K = |U′·Q − U·Q′| does not change along a row, that is at most K·|Q′|·S²/(4·Q³) with the lesser Q. K is linear over the
 /// triangle, so largest at a corner. S is the least power of two that no row is wider than, and Q the least of the corners less
-/// what a row can reach beyond its end, an eighth of it at most: a row is drawn between its first pixel and one that is the least power of two of pixels
-/// beyond it that reaches its last. Over the whole triangle v is within |Δv|·(√ρ − 1)/(√ρ + 1) of linear, with Δv and ρ over
-/// the corners. Rows are linear from the first pixel of the whole row on, so that a strip or tile has the bits of the whole
-/// picture.
+/// what a row can reach beyond its end, an eighth of it at most: a row is drawn between its first pixel and the one that is the
+/// least power of two of pixels beyond it that reaches its last. Over the whole triangle v is within |Δv|·(√ρ − 1)/(√ρ + 1) of
+/// linear, with Δv and ρ over the corners. Rows are linear from the first pixel of the whole row on, so that a strip or tile has
+/// the bits of the whole picture.
 ///
 /// **Error**: `BOUND`, and with ρ the largest 1/w of the polygon over that of the pixel 2^-12·(1 + 3·ρ + ρ²/48) of the largest
 /// value, or of what values differ by or of 64 texels where that is more, that of slopes as for [`Perspective32`], 64 units, and
@@ -179,7 +179,7 @@ impl<const N: usize> SpansSlopes<N> {
         }
     }
 
-    /// Linear between the first pixel of a row and one beyond its middle: the least power of two apart that reaches the last.
+    /// Linear between the first pixel of a row and the one that is the least power of two beyond it that reaches the last.
     #[inline(never)]
     fn row<F>(&self, span: &Span, cut: Cut, longest: u32, pixels: &mut [F::Pixel], fragment: &F)
     where
