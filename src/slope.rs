@@ -171,7 +171,7 @@ impl Weights {
     }
 }
 
-/// The [`Weights`] of a [small](mod@crate::small) triangle, in units of 2^-27 whatever its size.
+/// The [`Weights`] of a small triangle, of less than 16 columns and rows: in units of 2^-27 whatever its size.
 ///
 /// The value at the anchor is that of the first corner and a part of a step, so that the weights there need not be known. What
 /// [`Slopes::small`] is given: a varying of your own that has no use for it gets [`Weights`] instead, if it leaves that as it is.
