@@ -245,15 +245,12 @@ where
                 || !inside.draw_rows(color, depth, row, columns, &window, fragment)
             {
                 for (row, columns) in (row..).zip(&*columns) {
-                    let span = Span::new(row, *columns, &window);
-                    if span.left < span.right {
+                    let mut span = Span::new(row, *columns, &window);
+                    while span.left < span.right {
                         let left_over = inside.span(color, depth, &span, fragment);
-                        if left_over > 0 {
-                            // Looked up once more: kept, it would take registers.
-                            let mut span = Span::new(row, *columns, &window);
-                            span.left = span.right.wrapping_sub(left_over as i32);
-                            inside.shade_others(color, depth, &span, fragment);
-                        }
+                        // Looked up once more: kept, it would take registers.
+                        span = Span::new(row, *columns, &window);
+                        span.left = span.right.wrapping_sub(left_over as i32);
                     }
                 }
             }
