@@ -6,14 +6,14 @@
 //! 0…1, so that a step is at most 1, whatever the gradient. Pieces begin at the span's first column, on the window or not, so
 //! that a strip or tile has the bits of the whole picture.
 //!
-//! **Error.** Weights are cut to 2^-29 of 1 and their step to 2^-30, and what [slopes](mod@crate::slope) make of them is cut by
+//! **Error.** Weights and their step are cut to 2^-30 of 1, and what [slopes](mod@crate::slope) make of them is cut by
 //! four units a pixel: on a piece of 256 below 2000 units for a value of 31 bits, a sixteenth of a step of depth.
 //!
 //! **Budget.** Corners lie within ±2^23 subpixels and samples within the triangle: edge functions are below 2^50.
 
 use crate::edge::SUBPIXEL_BITS;
-use crate::num::{high_unsigned, near_reciprocal, product};
-use crate::slope::{Weights, normalized};
+use crate::num::{high_unsigned, product};
+use crate::slope::{Inverse, Weights};
 use crate::window::Window;
 
 /// Pixels of a piece: 32-bit steps keep within the stated error that far, and the piece's divisions cost a pixel little.
@@ -33,35 +33,27 @@ pub(crate) fn is_on(window: Window, (left, right): (i32, i32)) -> bool {
     left.max(window.left) < right.min(window.right)
 }
 
-/// Weights for the samples right of the covered one at `column` and `row`, of a triangle on the screen that has an area.
+/// Weights for the samples right of the covered one at `column` and `row`, of a triangle on the screen with the inverse of its
+/// area.
 ///
 /// A function of its own: the same for all that is drawn.
 #[cold]
 #[inline(never)]
-pub(crate) fn weights(&[a, b, c]: &[(i32, i32); 3], column: i32, row: i32) -> Weights {
+pub(crate) fn weights(&[a, b, c]: &[(i32, i32); 3], area: &Inverse, column: i32, row: i32) -> Weights {
     let from_corner = |p: (i32, i32)| (p.0 - a.0, p.1 - a.1);
     let (first, second) = (from_corner(b), from_corner(c));
     let sample = from_corner((column << SUBPIXEL_BITS, row << SUBPIXEL_BITS));
     let cross = |p: (i32, i32), q: (i32, i32)| product(p.0, q.1) - product(p.1, q.0);
-    let area = cross(first, second);
-    // 1/|area| = reciprocal · 2^-(62 + shift).
-    let (divisor, shift) = normalized(area.unsigned_abs());
-    let reciprocal = near_reciprocal(divisor) as u32;
-    let sign = (area >> 63) as i32;
     // In units of 2^-30, for at most the area: below 2^32, shifted as that was.
-    let part =
-        |function: i64| high_unsigned(function.unsigned_abs().rotate_right(shift as u32) as u32, reciprocal) as i32;
+    let part = |function: i64| {
+        let function = function.unsigned_abs().rotate_right(area.shift as u32) as u32;
+        high_unsigned(function, area.reciprocal as u32) as i32
+    };
     // Of either sign: by the area's, and its own.
     let step = |side: i32| {
-        let sign = sign ^ side >> 31;
+        let sign = area.sign ^ side >> 31;
         (part((side as i64) << SUBPIXEL_BITS) ^ sign).wrapping_sub(sign)
     };
-    let anchor = (-(part(cross(sample, second)) >> 1), -(part(cross(first, sample)) >> 1));
-    Weights::at_sample(
-        (column, row),
-        anchor,
-        (step(second.1), step(first.1).wrapping_neg()),
-        (0, 0),
-        2,
-    )
+    let at = (part(cross(sample, second)), part(cross(first, sample)));
+    Weights::at_sample((column, row), at, (step(second.1), step(first.1).wrapping_neg()))
 }

@@ -11,7 +11,7 @@ use crate::gradient::{Basis, Place, Plane, Ramp};
 use crate::line::Line;
 use crate::num::Word;
 use crate::screen::{Corner, Shape};
-use crate::slope::{Slope, Slopes, Weights};
+use crate::slope::{Inverse, Slope, Slopes, Weights};
 use crate::small;
 use crate::span::{BLOCK, Corners, Scan, Span, Spans, TriangleRows, doubled_area};
 use crate::target::Target;
@@ -186,7 +186,7 @@ where
 {
     if <F::Varying as Varying>::Slopes::EXIST && shape.count() == 3 {
         if area != 0 {
-            rows_of_triangle::<W, _, _, _, _>(color, depth, shape, area > 0, fragment);
+            rows_of_triangle::<W, _, _, _, _>(color, depth, shape, area, fragment);
         }
         return;
     }
@@ -201,10 +201,10 @@ where
     }
 }
 
-/// Draws a triangle whose varying has slopes: one set of them for all of it, or where it is too large or too thin one for each
+/// Draws a triangle with an `area` whose varying has slopes: one set of them for all of it, or where it is too large or too thin one for each
 /// piece of a span.
 #[inline(always)]
-fn rows_of_triangle<W, C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, ccw: bool, fragment: &F)
+fn rows_of_triangle<W, C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, area: i64, fragment: &F)
 where
     W: Word,
     C: Target,
@@ -215,8 +215,9 @@ where
     let corners = [0, 1, 2].map(|i| shape.position(i));
     let window = depth.limit(color.window());
     let carries = D::ENABLED || <F::Varying as Varying>::Slopes::CARRIES;
+    let inverse = Inverse::of(area);
     let (mut weights, whole) = if carries {
-        Weights::of(&corners)
+        Weights::of(&corners, &inverse)
     } else {
         (Weights::default(), true)
     };
@@ -225,7 +226,7 @@ where
     let Some(inside) = &mut inside else {
         return;
     };
-    let mut rows = TriangleRows::<W>::new(&corners, ccw, &window);
+    let mut rows = TriangleRows::<W>::new(&corners, area > 0, &window);
     let mut block = rows.room();
     let room = if whole { BLOCK } else { 1 };
     while let Some((row, columns)) = block.get_mut(..room).and_then(|block| rows.walk(block)) {
@@ -234,7 +235,7 @@ where
             if !whole && let Some(columns) = columns.first_mut() {
                 rest = barycentric::cut_piece(columns);
                 if barycentric::is_on(window, *columns) {
-                    weights = barycentric::weights(&corners, columns.0, row);
+                    weights = barycentric::weights(&corners, &inverse, columns.0, row);
                     let Some(new) = Inside::new::<D, _>(&weights, shape) else {
                         return;
                     };

@@ -8,7 +8,7 @@
 //! **Error.** Weights are in units of 2^-(32 − up) per pixel, to 2^-29 of the largest, with `up` the least that keeps them
 //! below 2^30: 0 where the triangle is 4 px high in every direction, one more for each halving of that. A step is cut to
 //! 2^up units of its value, and by the weights' cut to as much again where the value uses all of 31 bits; the value at the
-//! anchor is less than a column and a row from the first corner, and off by no more than those. [`Weights`] exist where rows
+//! anchor, which is within half a column and row of the first corner, is that corner's and a part of a step, and off by less. [`Weights`] exist where rows
 //! and columns of the triangle's box together are at most 1024 >> up, those two among them. A step is off by 4 times 2^up units or
 //! less, of 23 bits by little more than one. So a value of 31 bits is within 2^12 units, an eighth of a step of depth, and one of
 //! 23 bits (a channel of RGB565 in 2^-16 level) within 1100 units (`tests/narrow.rs`, `tests/bounds.rs`). Whoever uses slopes leaves that much room at both ends of his range.
@@ -18,8 +18,8 @@ use core::convert::Infallible;
 use crate::edge::{SUBPIXEL_BITS, SUBPIXELS};
 use crate::fragment::Fragment;
 use crate::gradient::Ramp;
-use crate::num::{high, high_sum, near_reciprocal, product, short_sum, sum_of_parts, sum_of_signed_parts};
-use crate::span::Span;
+use crate::num::{high, high_sum, near_reciprocal, short_sum, sum_of_signed_parts};
+use crate::span::{Span, doubled_area};
 use crate::varying::Varying;
 
 /// Rows and columns of the largest box, times 2^up.
@@ -33,17 +33,9 @@ pub(crate) const SMALL_UP: u32 = 5;
 /// What a triangle's pixels add to the weights of its second and third corner; see the [module](self).
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Weights {
-    /// The anchor: the pixel that the first corner is in.
-    pixel: (i32, i32),
-    /// At the anchor pixel.
-    anchor: (i32, i32),
-    /// Per column.
-    x: (i32, i32),
-    /// Per row.
-    y: (i32, i32),
+    /// In units of 2^-(32 − up).
+    steps: SmallWeights,
     up: u32,
-    /// As `up`, of the anchor.
-    anchor_up: u32,
 }
 
 impl Weights {
@@ -59,87 +51,57 @@ impl Weights {
     /// ```
     #[inline]
     pub fn new(corners: [(i32, i32); 3]) -> Option<Self> {
-        let (weights, whole) = Self::of(&corners);
-        whole.then_some(weights)
+        let area = doubled_area(&corners);
+        let (weights, whole) = Self::of(&corners, &Inverse::of(area));
+        (area != 0 && whole).then_some(weights)
     }
 
-    /// What [`new`](Self::new) gives, and whether it gives any.
+    /// What [`new`](Self::new) gives of a triangle with an area, whose inverse is known, and whether it gives any.
     ///
     /// A function of its own: the same for all that is drawn. No option, which would be copied.
     #[inline(never)]
-    pub(crate) fn of(&[corner, b, c]: &[(i32, i32); 3]) -> (Self, bool) {
+    pub(crate) fn of(&[corner, b, c]: &[(i32, i32); 3], area: &Inverse) -> (Self, bool) {
         let ((x1, y1), (x2, y2)) = ((b.0 - corner.0, b.1 - corner.1), (c.0 - corner.0, c.1 - corner.1));
-        let area = product(x1, y2) - product(y1, x2);
-        if area == 0 {
-            return (Weights::default(), false);
-        }
-        let mut weights = Weights::default();
-        let whole = weights.lay_with_area(corner, (x1, y1), (x2, y2), area < 0, normalized(area.unsigned_abs()));
-        (weights, whole)
-    }
-
-    /// Becomes [that](Self::of) of a triangle with an area: whether that is negative, and its magnitude [normalized]; whether
-    /// there is any.
-    #[inline(always)]
-    pub(crate) fn lay_with_area(
-        &mut self,
-        corner: (i32, i32),
-        (x1, y1): (i32, i32),
-        (x2, y2): (i32, i32),
-        negative: bool,
-        (divisor, shift): (u32, i32),
-    ) -> bool {
         // Of a negative side the complement, so that −2^bits ≤ side < 2^bits.
         let [width, height] = [(x1, x2), (y1, y2)].map(|(a, b)| (a ^ a >> 31 | b ^ b >> 31) as u32);
         let bits = 32 - (width | height).leading_zeros() as i32;
-        // 1/|area| = reciprocal · 2^-(62 + shift). |side| ≤ 2^bits and reciprocal < 2^31, so that a weight, which is
-        // 2^(8 + 32 − up) · side / area, is below 2^30.
-        let up = (bits - 21 - shift).max(0) as u32;
+        // |side| ≤ 2^bits and the reciprocal < 2^31, so that a weight, which is 2^(8 + 32 − up) · side / area, is below 2^30.
+        let up = (bits - 21 - area.shift).max(0) as u32;
         // The or of two numbers is less than twice the larger.
         let reach = (width + height) >> SUBPIXEL_BITS;
         if up > MOST_UP || (reach + 2) << up > REACH {
-            return false;
+            return (Weights::default(), false);
         }
         // In 5…31 − bits, since a box below 2^10 px has an area below 2^37: shifted sides fit 32 bits.
-        let side_shift = (10 - shift - up as i32) as u32;
-        let reciprocal = near_reciprocal(divisor);
-        let reciprocal = if negative { -reciprocal } else { reciprocal };
+        let side_shift = (10 - area.shift - up as i32) as u32;
+        let reciprocal = (area.reciprocal ^ area.sign) - area.sign;
         let weight = |side: i32, reciprocal: i32| high(side.wrapping_shl(side_shift), reciprocal);
         // Not the sides are negated: the complement of −2^bits has less bits than its negative.
         let x = (weight(y2, reciprocal), weight(y1, -reciprocal));
         let y = (weight(x2, -reciprocal), weight(x1, reciprocal));
-        // Below 2^31.
-        let part = (corner.0 & (SUBPIXELS - 1), corner.1 & (SUBPIXELS - 1));
-        let at = |x: i32, y: i32| sum_of_parts((x, y), part);
-        *self = Weights {
-            pixel: (corner.0 >> SUBPIXEL_BITS, corner.1 >> SUBPIXEL_BITS),
-            anchor: (at(x.0, y.0), at(x.1, y.1)),
-            x,
-            y,
-            up,
-            anchor_up: up,
-        };
-        true
+        let steps = SmallWeights::new(corner, x, y);
+        (Weights { steps, up }, true)
     }
 
-    /// With the weights at a covered sample, negated, in units of 2^-29, and steps in units of 2^-(32 − up).
+    /// Of the samples right of a covered one, with the weights `at` that, and what a column adds: in units of 2^-30.
+    ///
+    /// The value there is the first corner's and one row's step.
     #[inline(always)]
-    pub(crate) fn at_sample(pixel: (i32, i32), anchor: (i32, i32), x: (i32, i32), y: (i32, i32), up: u32) -> Self {
-        Weights {
-            pixel,
-            anchor,
+    pub(crate) fn at_sample((column, row): (i32, i32), at: (i32, i32), x: (i32, i32)) -> Self {
+        let steps = SmallWeights {
+            pixel: (column, row - 1),
+            part: (0, 0),
             x,
-            y,
-            up,
-            anchor_up: 3,
-        }
+            y: at,
+        };
+        Weights { steps, up: 2 }
     }
 
     /// The least number for which no row of the triangle has two pixels more than 2^ that apart, of 2 to 10.
     #[inline(always)]
     pub(crate) fn widest_row(&self) -> u32 {
         // Along a row no weight changes by more than 1, which is 2^(32 − up).
-        let (b, c) = self.x;
+        let (b, c) = self.steps.x;
         let sum = ((b >> 1) + (c >> 1)).unsigned_abs() << 1;
         let steepest = b.unsigned_abs() | c.unsigned_abs() | sum;
         (steepest.leading_zeros() + 1).saturating_sub(self.up).clamp(2, 10)
@@ -153,21 +115,37 @@ impl Weights {
 
     /// The same from the anchor pixel, where the value is about the first.
     #[inline(always)]
-    pub(crate) fn anchored(&self, [a, b, c]: [i32; 3]) -> Slope {
-        let values = (b.wrapping_sub(a), c.wrapping_sub(a));
-        // |weights| < 2^31, those at the anchor less by a 256th: below 2^63.
-        let dot = |weights| high_sum(values, weights);
-        Slope {
-            value: a.wrapping_sub(dot(self.anchor).wrapping_shl(self.anchor_up)),
-            x: dot(self.x).wrapping_shl(self.up),
-            y: dot(self.y).wrapping_shl(self.up),
-        }
+    pub(crate) fn anchored(&self, values: [i32; 3]) -> Slope {
+        self.steps.anchored(values, self.up)
     }
 
     /// An [anchored](Self::anchored) slope from the picture's origin on, once for all of its pixels: modulo 2^32 that is the same.
     #[inline(always)]
     pub(crate) fn at_origin(&self, slope: Slope) -> Slope {
-        slope.moved_from(self.pixel)
+        self.steps.at_origin(slope)
+    }
+}
+
+/// 1/|area| = reciprocal · 2^-(62 + shift), of a triangle's doubled area in square subpixels.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Inverse {
+    /// In 2^30…2^31−1, to 2^-29 of itself.
+    pub(crate) reciprocal: i32,
+    pub(crate) shift: i32,
+    /// −1 where the corners run counter-clockwise, which is an area above 0, else 0: the sign of x₁·y₂ − y₁·x₂.
+    pub(crate) sign: i32,
+}
+
+impl Inverse {
+    /// Of a [`doubled_area`] below 2^62; of none, anything.
+    #[inline(always)]
+    pub(crate) fn of(area: i64) -> Self {
+        let (divisor, shift) = normalized(area.unsigned_abs());
+        Inverse {
+            reciprocal: near_reciprocal(divisor),
+            shift,
+            sign: (!area >> 63) as i32,
+        }
     }
 }
 
@@ -204,28 +182,28 @@ impl SmallWeights {
     /// The weights that any other triangle has.
     #[inline(always)]
     pub(crate) fn wide(&self) -> Weights {
-        let at = |x: i32, y: i32| sum_of_signed_parts((x, y), self.part);
         Weights {
-            pixel: self.pixel,
-            anchor: (at(self.x.0, self.y.0), at(self.x.1, self.y.1)),
-            x: self.x,
-            y: self.y,
+            steps: *self,
             up: SMALL_UP,
-            anchor_up: SMALL_UP,
         }
     }
 
     /// The slope through `values` at the triangle's corners, each less than 2^31 from the first.
     #[inline(always)]
-    pub(crate) fn slope(&self, [a, b, c]: [i32; 3]) -> Slope {
+    pub(crate) fn slope(&self, values: [i32; 3]) -> Slope {
+        self.at_origin(self.anchored(values, SMALL_UP))
+    }
+
+    /// The same from the anchor pixel on, where steps are of 2^`up` units. |weights| ≤ 2^30: steps are below 2^31.
+    #[inline(always)]
+    fn anchored(&self, [a, b, c]: [i32; 3], up: u32) -> Slope {
         let values = (b.wrapping_sub(a), c.wrapping_sub(a));
         let (x, y) = (high_sum(values, self.x), high_sum(values, self.y));
-        let slope = Slope {
-            value: a.wrapping_sub(sum_of_signed_parts((x, y), self.part) << SMALL_UP),
-            x: x << SMALL_UP,
-            y: y << SMALL_UP,
-        };
-        slope.moved_from(self.pixel)
+        Slope {
+            value: a.wrapping_sub(sum_of_signed_parts((x, y), self.part).wrapping_shl(up)),
+            x: x.wrapping_shl(up),
+            y: y.wrapping_shl(up),
+        }
     }
 
     /// As [`slope`](Self::slope), from the anchor on, in 2^[`SMALL_UP`] units of `values` whose differences, below

@@ -9,7 +9,7 @@ use core::marker::PhantomData;
 use core::mem;
 
 use crate::edge::{Edge, first_row};
-use crate::num::Word;
+use crate::num::{Word, product};
 use crate::window::Window;
 
 /// Corners of a polygon on the screen: (x, y) in subpixels, in order. Implemented for arrays and by closures.
@@ -100,7 +100,7 @@ impl<W: Word, S: Corners> Spans for Scan<'_, W, S> {
 }
 
 /// Twice the signed area in square subpixels, exactly: positive where the corners run counter-clockwise as seen on a
-/// screen whose rows run downwards.
+/// screen whose rows run downwards. Of corners within ±2^28 subpixels, which is ±2^20 pixels.
 ///
 /// ```
 /// use fixel::span::doubled_area;
@@ -109,12 +109,12 @@ impl<W: Word, S: Corners> Spans for Scan<'_, W, S> {
 #[inline]
 pub fn doubled_area(corners: &impl Corners) -> i64 {
     let origin = corners.position(0);
-    let from_origin = |p: (i32, i32)| ((p.0 - origin.0) as i64, (p.1 - origin.1) as i64);
-    let mut sum = 0;
+    let from_origin = |p: (i32, i32)| (p.0.wrapping_sub(origin.0), p.1.wrapping_sub(origin.1));
+    let mut sum = 0i64;
     let mut previous = from_origin(corners.position(1));
     for i in 2..corners.count() {
         let next = from_origin(corners.position(i));
-        sum += previous.1 * next.0 - previous.0 * next.1;
+        sum = sum.wrapping_add(product(previous.1, next.0).wrapping_sub(product(previous.0, next.1)));
         previous = next;
     }
     sum

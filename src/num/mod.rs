@@ -20,7 +20,7 @@ pub use block::{Block, Scaled};
 pub use one_step::OneStep;
 pub use power::power;
 pub use precision::{Precision, TwoSteps};
-pub(crate) use product::{high, high_sum, high_unsigned, product, short_sum, sum_of_parts, sum_of_signed_parts};
+pub(crate) use product::{high, high_sum, high_unsigned, product, short_sum, sum_of_signed_parts};
 pub use quotient::Divisor;
 pub use recip::reciprocal;
 pub(crate) use recip::{near_reciprocal, nearer_reciprocal};

@@ -68,17 +68,7 @@ fn is_short(values: [i32; 4]) -> bool {
     bits >> 15 == 0
 }
 
-/// (a·p + b·q) · 2^-8, rounded down, for p and q in 0…255 and a sum that fits 32 bits.
-#[inline(always)]
-pub(crate) fn sum_of_parts((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
-    if BY_HALVES {
-        sum_of_parts_by_bytes((a, b), (p, q))
-    } else {
-        ((a as i64 * p as i64 + b as i64 * q as i64) >> 8) as i32
-    }
-}
-
-/// The same for p and q in −128…127.
+/// (a·p + b·q) · 2^-8, rounded down, for p and q in −128…127 and a sum that fits 32 bits.
 #[inline(always)]
 pub(crate) fn sum_of_signed_parts((a, b): (i32, i32), (p, q): (i32, i32)) -> i32 {
     if BY_HALVES {
@@ -170,13 +160,6 @@ mod tests {
                 );
                 for b in ends {
                     for q in ends {
-                        let parts = (p & 255, q & 255);
-                        let sum = a as i64 * parts.0 as i64 + b as i64 * parts.1 as i64;
-                        assert_eq!(
-                            sum_of_parts_by_bytes((a, b), parts),
-                            (sum >> 8) as i32,
-                            "{a} {b} {parts:?}"
-                        );
                         let sum = a as i128 * p as i128 + b as i128 * q as i128;
                         if sum as i64 as i128 == sum {
                             assert_eq!(high_sum_by_halves((a, b), (p, q)) as i128, sum >> 32, "{a} {p} {b} {q}");
