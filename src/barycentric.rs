@@ -44,16 +44,20 @@ pub(crate) fn weights(&[a, b, c]: &[(i32, i32); 3], area: &Inverse, column: i32,
     let (first, second) = (from_corner(b), from_corner(c));
     let sample = from_corner((column << SUBPIXEL_BITS, row << SUBPIXEL_BITS));
     let cross = |p: (i32, i32), q: (i32, i32)| product(p.0, q.1) - product(p.1, q.0);
-    // In units of 2^-30, for at most the area: below 2^32, shifted as that was.
-    let part = |function: i64| {
-        let function = function.unsigned_abs().rotate_right(area.shift as u32) as u32;
-        high_unsigned(function, area.reciprocal as u32) as i32
-    };
     // Of either sign: by the area's, and its own.
     let step = |side: i32| {
         let sign = area.sign ^ side >> 31;
-        (part((side as i64) << SUBPIXEL_BITS) ^ sign).wrapping_sub(sign)
+        (part((side as i64) << SUBPIXEL_BITS, area) ^ sign).wrapping_sub(sign)
     };
-    let at = (part(cross(sample, second)), part(cross(first, sample)));
+    let at = (part(cross(sample, second), area), part(cross(first, sample), area));
     Weights::at_sample((column, row), at, (step(second.1), step(first.1).wrapping_neg()))
+}
+
+/// |`function`| over the area, in units of 2^-30, for at most the area: below 2^32, shifted as that was.
+///
+/// A function of its own: there are four, and 64-bit words are long to shift.
+#[inline(never)]
+fn part(function: i64, area: &Inverse) -> i32 {
+    let function = function.unsigned_abs().rotate_right(area.shift as u32) as u32;
+    high_unsigned(function, area.reciprocal as u32) as i32
 }

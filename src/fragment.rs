@@ -27,6 +27,8 @@ pub trait Fragment {
     type Varying: Varying;
     /// The target's pixel.
     type Pixel: Copy;
+    /// Whether to be drawn by less code: see [`Compact`].
+    const COMPACT: bool = false;
 
     /// The one pixel that [`shade`](Self::shade) always gives, if so: spans without depth are then filled at once.
     fn solid(&self) -> Option<Self::Pixel> {
@@ -45,6 +47,45 @@ pub trait Fragment {
 
     /// The new pixel over `below`, or `None` to leave the colour as it is (the depth has been stored by then).
     fn shade(&self, values: <Self::Varying as Varying>::Values, below: Self::Pixel) -> Option<Self::Pixel>;
+}
+
+/// Another fragment program, drawn by less code: where flash is short, or few triangles are small.
+///
+/// Triangles below 16 columns and rows go the way of the others instead of [one of their own](crate::draw::triangle), and what
+/// a view has left goes the way of polygons, a triangle or not. The same pixels are covered, and what they get is within the
+/// same bounds, though not always to the last bit; on any machine and in any strip it is the same.
+///
+/// ```
+/// use fixel::depth::NoDepth;
+/// use fixel::fragment::{Compact, Flat, Fragment};
+/// use fixel::{draw, screen::Position, target::Buffer};
+/// assert!(Compact::<Flat<u8>>::COMPACT);
+/// let mut picture = [b'.'; 4 * 3];
+/// let corners = [(0, 0), (0, 3), (3, 0)].map(|(x, y)| Position::from_pixels(x, y).flat());
+/// draw::triangle(&mut Buffer::new(&mut picture, 4, 3)?, &mut NoDepth, corners, &Compact(Flat(b'#')));
+/// assert_eq!(&picture, b"###.##..#...");
+/// # Ok::<(), fixel::error::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Compact<F>(pub F);
+
+impl<F: Fragment> Fragment for Compact<F> {
+    type Varying = F::Varying;
+    type Pixel = F::Pixel;
+    const COMPACT: bool = true;
+
+    #[inline(always)]
+    fn solid(&self) -> Option<F::Pixel> {
+        self.0.solid()
+    }
+    #[inline(always)]
+    fn fill(&self, pixels: &mut [F::Pixel]) -> bool {
+        self.0.fill(pixels)
+    }
+    #[inline(always)]
+    fn shade(&self, values: <F::Varying as Varying>::Values, below: F::Pixel) -> Option<F::Pixel> {
+        self.0.shade(values, below)
+    }
 }
 
 /// A fragment program that can colour a part of a pixel, as [Wu lines](crate::draw::wu_line) want.

@@ -56,7 +56,8 @@ impl Weights {
         (area != 0 && whole).then_some(weights)
     }
 
-    /// What [`new`](Self::new) gives of a triangle with an area, whose inverse is known, and whether it gives any.
+    /// What [`new`](Self::new) gives of a triangle with an area, whose inverse is known; whether it gives any, or these are any
+    /// numbers.
     ///
     /// A function of its own: the same for all that is drawn. No option, which would be copied.
     #[inline(never)]
@@ -69,18 +70,16 @@ impl Weights {
         let up = (bits - 21 - area.shift).max(0) as u32;
         // The or of two numbers is less than twice the larger.
         let reach = (width + height) >> SUBPIXEL_BITS;
-        if up > MOST_UP || (reach + 2) << up > REACH {
-            return (Weights::default(), false);
-        }
-        // In 5…31 − bits, since a box below 2^10 px has an area below 2^37: shifted sides fit 32 bits.
-        let side_shift = (10 - area.shift - up as i32) as u32;
+        let whole = up <= MOST_UP && (reach + 2).wrapping_shl(up) <= REACH;
+        // In 5…31 − bits if whole, since a box below 2^10 px has an area below 2^37: shifted sides fit 32 bits.
+        let side_shift = (10 - area.shift).wrapping_sub(up as i32) as u32;
         let reciprocal = (area.reciprocal ^ area.sign) - area.sign;
         let weight = |side: i32, reciprocal: i32| high(side.wrapping_shl(side_shift), reciprocal);
         // Not the sides are negated: the complement of −2^bits has less bits than its negative.
         let x = (weight(y2, reciprocal), weight(y1, -reciprocal));
         let y = (weight(x2, -reciprocal), weight(x1, reciprocal));
         let steps = SmallWeights::new(corner, x, y);
-        (Weights { steps, up }, true)
+        (Weights { steps, up }, whole)
     }
 
     /// Of the samples right of a covered one, with the weights `at` that, and what a column adds: in units of 2^-30.

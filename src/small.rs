@@ -49,7 +49,7 @@ where
     S: Shape<Varying = F::Varying>,
     F: Fragment<Pixel = C::Pixel>,
 {
-    <F::Varying as Varying>::Slopes::EXIST && paint(color, depth, shape, fragment)
+    !F::COMPACT && <F::Varying as Varying>::Slopes::EXIST && paint(color, depth, shape, fragment)
 }
 
 #[inline(never)]

@@ -6,7 +6,7 @@ use core::hint::black_box;
 
 use fixel::depth::NoDepth;
 use fixel::draw::triangle;
-use fixel::fragment::{Flat565, Gouraud565};
+use fixel::fragment::{Compact, Flat565, Gouraud565};
 use fixel::screen::Corner;
 use fixel::texture::Tiled565;
 use fixel::varying::{Color565, Perspective32, PerspectiveSpans};
@@ -125,5 +125,16 @@ pub fn gouraud_depth(frame: &mut Frame, triangles: &[GouraudTriangle]) {
     };
     for corners in triangles {
         triangle(&mut color, &mut depth, corners, &Gouraud565);
+    }
+}
+
+/// As [`gouraud_depth`], by less code.
+#[inline(never)]
+pub fn gouraud_depth_compact(frame: &mut Frame, triangles: &[GouraudTriangle]) {
+    let Ok((mut color, mut depth)) = frame.with_depth() else {
+        return;
+    };
+    for corners in triangles {
+        triangle(&mut color, &mut depth, corners, &Compact(Gouraud565));
     }
 }

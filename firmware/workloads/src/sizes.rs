@@ -9,11 +9,11 @@ use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::depth::{Less, NoDepth};
 use fixel::draw;
 use fixel::error::Error;
-use fixel::fragment::{Flat, Fragment, Gouraud565};
+use fixel::fragment::{Compact, Flat, Fragment, Gouraud565};
 use fixel::matrix::Matrix;
 use fixel::num::Block;
 use fixel::texture::{Floor, Nearest, Rgb565, Texture};
-use fixel::varying::Perspective;
+use fixel::varying::{Color565, Perspective};
 use fixel::view::{Cull, Vertex, View};
 use fixel::viewport::Viewport;
 
@@ -61,10 +61,22 @@ fn vertex<A>((position, values): Point, carried: impl FnOnce([u8; 3]) -> A) -> V
 
 /// One colour a triangle, no depth.
 pub fn flat(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    each_flat(part, input, Flat)
+}
+
+/// As [`flat`], by less code.
+pub fn flat_compact(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    each_flat(part, input, |pixel| Compact(Flat(pixel)))
+}
+
+fn each_flat<F>(part: &mut Part<'_>, input: &Input<'_>, of: impl Fn(u16) -> F) -> Result<(), Error>
+where
+    F: Fragment<Varying = (), Pixel = u16>,
+{
     let (view, mut color) = (view(input, DepthRange::Unlimited)?, part.color()?);
     for points in input.points.as_chunks::<3>().0 {
         let [(_, [red, green, _]), ..] = *points;
-        let fragment = Flat(u16::from_le_bytes([red, green]));
+        let fragment = of(u16::from_le_bytes([red, green]));
         let vertices = points.map(|point| vertex(point, |_| ()));
         draw::primitive(&view, &mut color, &mut NoDepth, &vertices, &fragment);
     }
@@ -73,11 +85,23 @@ pub fn flat(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
 
 /// Colours between the corners, with depth.
 pub fn gouraud(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    each_gouraud(part, input, &Gouraud565)
+}
+
+/// As [`gouraud`], by less code.
+pub fn gouraud_compact(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    each_gouraud(part, input, &Compact(Gouraud565))
+}
+
+fn each_gouraud<F>(part: &mut Part<'_>, input: &Input<'_>, fragment: &F) -> Result<(), Error>
+where
+    F: Fragment<Varying = Color565, Pixel = u16>,
+{
     let view = view(input, DepthRange::MinusOneToOne)?;
     let (mut color, mut depth) = part.compared::<Less>()?;
     for points in input.points.as_chunks::<3>().0 {
         let vertices = points.map(|point| vertex(point, |[r, g, b]| Gouraud565::corner(r, g, b).0));
-        draw::primitive(&view, &mut color, &mut depth, &vertices, &Gouraud565);
+        draw::primitive(&view, &mut color, &mut depth, &vertices, fragment);
     }
     Ok(())
 }
@@ -123,7 +147,16 @@ mod tests {
             texels: &[0xffff; 256],
         };
         let mut memory = std::boxed::Box::new(<Memory>::new());
-        let pixels = [empty, flat, gouraud, textured, everything].map(|draw: Draw| {
+        let pixels = [
+            empty,
+            flat,
+            flat_compact,
+            gouraud,
+            gouraud_compact,
+            textured,
+            everything,
+        ]
+        .map(|draw: Draw| {
             let mut part = memory.cleared(0, HEIGHT);
             assert_eq!(draw(&mut part, &input), Ok(()));
             part.colors().iter().filter(|&&pixel| pixel != 0).count()
