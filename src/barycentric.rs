@@ -33,13 +33,13 @@ pub(crate) fn is_on(window: Window, (left, right): (i32, i32)) -> bool {
     left.max(window.left) < right.min(window.right)
 }
 
-/// Weights for the samples right of the covered one at `column` and `row`, of a triangle on the screen with the inverse of its
-/// area.
+/// Lays weights for the samples right of the covered one at `column` and `row`, of a triangle on the screen with the inverse of
+/// its area.
 ///
 /// A function of its own: the same for all that is drawn.
 #[cold]
 #[inline(never)]
-pub(crate) fn weights(&[a, b, c]: &[(i32, i32); 3], area: &Inverse, column: i32, row: i32) -> Weights {
+pub(crate) fn lay(weights: &mut Weights, &[a, b, c]: &[(i32, i32); 3], area: &Inverse, column: i32, row: i32) {
     let from_corner = |p: (i32, i32)| (p.0 - a.0, p.1 - a.1);
     let (first, second) = (from_corner(b), from_corner(c));
     let sample = from_corner((column << SUBPIXEL_BITS, row << SUBPIXEL_BITS));
@@ -50,7 +50,7 @@ pub(crate) fn weights(&[a, b, c]: &[(i32, i32); 3], area: &Inverse, column: i32,
         (part((side as i64) << SUBPIXEL_BITS, area) ^ sign).wrapping_sub(sign)
     };
     let at = (part(cross(sample, second), area), part(cross(first, sample), area));
-    Weights::at_sample((column, row), at, (step(second.1), step(first.1).wrapping_neg()))
+    *weights = Weights::at_sample((column, row), at, (step(second.1), step(first.1).wrapping_neg()));
 }
 
 /// |`function`| over the area, in units of 2^-30, for at most the area: below 2^32, shifted as that was.

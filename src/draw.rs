@@ -10,7 +10,7 @@ use crate::fragment::Fragment;
 use crate::gradient::{Basis, Place, Plane, Ramp};
 use crate::line::Line;
 use crate::num::Word;
-use crate::screen::{Corner, Shape};
+use crate::screen::{Corner, Shape, of_corners};
 use crate::slope::{Inverse, Slope, Slopes, Weights};
 use crate::small;
 use crate::span::{BLOCK, Corners, Scan, Span, Spans, TriangleRows, doubled_area};
@@ -196,11 +196,15 @@ where
     let spans = Scan::<W, _>::new(outline, area > 0);
     if D::ENABLED || <F::Varying as Varying>::Slopes::CARRIES {
         paint(color, depth, shape, &Basis::new(outline), &spans, fragment);
-    } else if let Some(inside) = Inside::<F::Varying>::new::<D, _>(&Weights::default(), shape) {
+    } else {
         // Nothing is interpolated: no plane, and no basis of any.
-        spans.each(depth.limit(color.window()), |span| {
-            inside.span(color, depth, &span, fragment);
-        });
+        let mut inside = None;
+        Inside::<F::Varying>::lay::<D, _>(&mut inside, &Weights::default(), shape);
+        if let Some(inside) = &inside {
+            spans.each(depth.limit(color.window()), |span| {
+                inside.span(color, depth, &span, fragment);
+            });
+        }
     }
 }
 
@@ -215,53 +219,42 @@ where
     S: Shape<Varying = F::Varying>,
     F: Fragment<Pixel = C::Pixel>,
 {
-    let corners = [0, 1, 2].map(|i| shape.position(i));
+    let corners = of_corners(|i| shape.position(i));
     let window = depth.limit(color.window());
     let carries = D::ENABLED || <F::Varying as Varying>::Slopes::CARRIES;
-    let inverse = Inverse::of(area);
-    let (mut weights, whole) = if carries {
-        Weights::of(&corners, &inverse)
-    } else {
-        (Weights::default(), true)
-    };
-    // Looked at in place: taken out of its option, it would be copied.
-    let mut inside = Inside::new::<D, _>(&weights, shape);
-    let Some(inside) = &mut inside else {
-        return;
-    };
-    let mut rows = TriangleRows::<W>::new(&corners, area > 0, &window);
+    let area = Inverse::of(area);
+    let mut weights = Weights::placeholder(area.shift);
+    let whole = !carries || weights.lay(&corners, &area);
+    let mut inside = None;
+    Inside::lay::<D, _>(&mut inside, &weights, shape);
+    let mut rows = TriangleRows::<W>::new(&corners, area.sign != 0, &window);
     let mut block = rows.room();
     let room = if whole { BLOCK } else { 1 };
-    while let Some((row, columns)) = block.get_mut(..room).and_then(|block| rows.walk(block)) {
-        loop {
-            let mut rest = None;
-            if !whole && let Some(columns) = columns.first_mut() {
-                rest = barycentric::cut_piece(columns);
-                if barycentric::is_on(window, *columns) {
-                    weights = barycentric::weights(&corners, &inverse, columns.0, row);
-                    let Some(new) = Inside::new::<D, _>(&weights, shape) else {
-                        return;
-                    };
-                    *inside = new;
-                }
+    // What is left of a row after a piece of it.
+    let mut rest = None;
+    while let Some((row, columns)) = rows.walk(&mut block, room, rest.take()) {
+        if !whole && let Some(columns) = columns.first_mut() {
+            rest = barycentric::cut_piece(columns);
+            if barycentric::is_on(window, *columns) {
+                barycentric::lay(&mut weights, &corners, &area, columns.0, row);
+                Inside::lay::<D, _>(&mut inside, &weights, shape);
             }
-            if !<F::Varying as Varying>::Slopes::DRAWS
-                || !inside.draw_rows(color, depth, row, columns, &window, fragment)
-            {
-                for (row, columns) in (row..).zip(&*columns) {
-                    let mut span = Span::new(row, *columns, &window);
-                    while span.left < span.right {
-                        let left_over = inside.span(color, depth, &span, fragment);
-                        // Looked up once more: kept, it would take registers.
-                        span = Span::new(row, *columns, &window);
-                        span.left = span.right.wrapping_sub(left_over as i32);
-                    }
-                }
+        }
+        // Looked at in place: taken out of its option, it would be copied.
+        let Some(inside) = &inside else {
+            return;
+        };
+        if <F::Varying as Varying>::Slopes::DRAWS && inside.draw_rows(color, depth, row, columns, &window, fragment) {
+            continue;
+        }
+        for (row, columns) in (row..).zip(&*columns) {
+            let mut span = Span::new(row, *columns, &window);
+            while span.left < span.right {
+                let left_over = inside.span(color, depth, &span, fragment);
+                // Looked up once more: kept, it would take registers.
+                span = Span::new(row, *columns, &window);
+                span.left = span.right.wrapping_sub(left_over as i32);
             }
-            let (Some(rest), Some(columns)) = (rest, columns.first_mut()) else {
-                break;
-            };
-            *columns = rest;
         }
     }
 }
@@ -274,19 +267,18 @@ pub(crate) struct Inside<V: Varying> {
 }
 
 impl<V: Varying> Inside<V> {
+    /// Becomes what `shape` carries; none where its varying has no use for weights. In place: returned, it would be copied.
     #[inline(never)]
-    pub(crate) fn new<D: Depth, S: Shape<Varying = V>>(weights: &Weights, shape: &S) -> Option<Self> {
+    fn lay<D: Depth, S: Shape<Varying = V>>(inside: &mut Option<Self>, weights: &Weights, shape: &S) {
         let mut depth = Slope::default();
         if D::ENABLED {
-            depth = weights.slope([0, 1, 2].map(|i| shape.depth(i)));
+            depth = weights.slope(of_corners(|i| shape.depth(i)));
             depth.value = depth.value.wrapping_add(1 << 14);
             // Nothing of the others is loaded before that is done, as if there were registers for all.
             black_box(());
         }
-        Some(Inside {
-            depth,
-            slopes: V::Slopes::new(weights, [0, 1, 2].map(|i| shape.varying(i)))?,
-        })
+        let slopes = V::Slopes::new(weights, of_corners(|i| shape.varying(i)));
+        *inside = slopes.map(|slopes| Inside { depth, slopes });
     }
 
     /// One span: what is hidden at its start costs the comparison and one addition for each pixel, and nothing else is looked

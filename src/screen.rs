@@ -128,6 +128,12 @@ pub struct Center {
     pub depth: FineDepth,
 }
 
+/// What `f` makes of the numbers of a triangle's corners. `array::map` is a loop over the numbers where a compiler saves code.
+#[inline(always)]
+pub(crate) fn of_corners<T>(f: impl Fn(usize) -> T) -> [T; 3] {
+    [f(0), f(1), f(2)]
+}
+
 /// The corners of a polygon, or the two ends of a line, as the rooms from setup on want them.
 pub trait Shape: Corners {
     /// What each corner carries.

@@ -52,16 +52,16 @@ impl Weights {
     #[inline]
     pub fn new(corners: [(i32, i32); 3]) -> Option<Self> {
         let area = doubled_area(&corners);
-        let (weights, whole) = Self::of(&corners, &Inverse::of(area));
-        (area != 0 && whole).then_some(weights)
+        let mut weights = Weights::default();
+        (area != 0 && weights.lay(&corners, &Inverse::of(area))).then_some(weights)
     }
 
-    /// What [`new`](Self::new) gives of a triangle with an area, whose inverse is known; whether it gives any, or these are any
-    /// numbers.
+    /// Becomes what [`new`](Self::new) gives of a triangle with an area, whose inverse is known; whether it gives any, else these
+    /// are any numbers.
     ///
-    /// A function of its own: the same for all that is drawn. No option, which would be copied.
+    /// A function of its own: the same for all that is drawn. In place: returned, they would be copied.
     #[inline(never)]
-    pub(crate) fn of(&[corner, b, c]: &[(i32, i32); 3], area: &Inverse) -> (Self, bool) {
+    pub(crate) fn lay(&mut self, &[corner, b, c]: &[(i32, i32); 3], area: &Inverse) -> bool {
         let ((x1, y1), (x2, y2)) = ((b.0 - corner.0, b.1 - corner.1), (c.0 - corner.0, c.1 - corner.1));
         // Of a negative side the complement, so that −2^bits ≤ side < 2^bits.
         let [width, height] = [(x1, x2), (y1, y2)].map(|(a, b)| (a ^ a >> 31 | b ^ b >> 31) as u32);
@@ -79,7 +79,21 @@ impl Weights {
         let x = (weight(y2, reciprocal), weight(y1, -reciprocal));
         let y = (weight(x2, -reciprocal), weight(x1, reciprocal));
         let steps = SmallWeights::new(corner, x, y);
-        (Weights { steps, up }, whole)
+        *self = Weights { steps, up };
+        whole
+    }
+
+    /// Any weights, to be replaced: words that are all the same, which costs a store each and no call.
+    #[inline(always)]
+    pub(crate) fn placeholder(word: i32) -> Self {
+        let two = (word, word);
+        let steps = SmallWeights {
+            pixel: two,
+            part: two,
+            x: two,
+            y: two,
+        };
+        Weights { steps, up: word as u32 }
     }
 
     /// Of the samples right of a covered one, with the weights `at` that, and what a column adds: in units of 2^-30.

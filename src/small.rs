@@ -27,7 +27,7 @@ use crate::draw::Inside;
 use crate::edge::{SUBPIXEL_BITS, SUBPIXELS, first_row};
 use crate::fragment::Fragment;
 use crate::num::{high, nearer_reciprocal};
-use crate::screen::Shape;
+use crate::screen::{Shape, of_corners};
 use crate::slope::{SMALL_UP, Slope, Slopes, SmallWeights};
 use crate::span::Span;
 use crate::target::Target;
@@ -60,7 +60,7 @@ where
     S: Shape<Varying = F::Varying>,
     F: Fragment<Pixel = C::Pixel>,
 {
-    let corners = [0, 1, 2].map(|i| shape.position(i));
+    let corners = of_corners(|i| shape.position(i));
     let mut spans = [0; REACH as usize];
     let carries = D::ENABLED || <F::Varying as Varying>::Slopes::CARRIES;
     let find = match (carries, DIVIDES) {
@@ -89,14 +89,14 @@ where
 fn values<D: Depth, S: Shape>(weights: &SmallWeights, shape: &S) -> Option<Inside<S::Varying>> {
     let mut depth = Slope::default();
     if D::ENABLED {
-        depth = weights.slope([0, 1, 2].map(|i| shape.depth(i)));
+        depth = weights.slope(of_corners(|i| shape.depth(i)));
         depth.value = depth.value.wrapping_add(1 << 14);
         // Nothing of the others is loaded before that is done, as if there were registers for all.
         black_box(());
     }
     Some(Inside {
         depth,
-        slopes: <S::Varying as Varying>::Slopes::small(weights, [0, 1, 2].map(|i| shape.varying(i)))?,
+        slopes: <S::Varying as Varying>::Slopes::small(weights, of_corners(|i| shape.varying(i)))?,
     })
 }
 

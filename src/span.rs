@@ -10,6 +10,7 @@ use core::mem;
 
 use crate::edge::{Edge, first_row};
 use crate::num::{Word, product};
+use crate::screen::of_corners;
 use crate::window::Window;
 
 /// Corners of a polygon on the screen: (x, y) in subpixels, in order. Implemented for arrays and by closures.
@@ -136,7 +137,7 @@ pub fn doubled_area(corners: &impl Corners) -> i64 {
 #[inline]
 pub fn scan<W: Word>(corners: &impl Corners, ccw: bool, window: Window, draw: impl FnMut(Span)) {
     if is_triangle(corners) {
-        scan_triangle::<W>(&[0, 1, 2].map(|i| corners.position(i)), ccw, window, draw);
+        scan_triangle::<W>(&of_corners(|i| corners.position(i)), ccw, window, draw);
     } else {
         scan_polygon::<W>(corners, ccw, window, draw);
     }
@@ -152,7 +153,7 @@ fn is_triangle<S: Corners>(_: &S) -> bool {
 fn scan_triangle<W: Word>(corners: &[(i32, i32); 3], ccw: bool, window: Window, mut draw: impl FnMut(Span)) {
     let mut rows = TriangleRows::<W>::new(corners, ccw, &window);
     let mut block = rows.room();
-    while let Some((row, columns)) = rows.walk(&mut block) {
+    while let Some((row, columns)) = rows.walk(&mut block, BLOCK, None) {
         for (row, &columns) in (row..).zip(&*columns) {
             let span = Span::new(row, columns, &window);
             if span.left < span.right {
@@ -198,11 +199,12 @@ impl<W: Word> TriangleRows<W> {
         } else {
             (a, b, c)
         };
+        let top = first_row(a.1).max(window.top);
         let beside = is_beside(*window, a.0.min(b.0).min(c.0), a.0.max(b.0).max(c.0));
         TriangleRows {
-            left: Side::new([a, b, c]),
-            right: Side::new([a, c, b]),
-            row: first_row(a.1).max(window.top),
+            left: Side::new([a, b, c], top),
+            right: Side::new([a, c, b], top),
+            row: top,
             stop: i32::MIN,
             end: if beside {
                 i32::MIN
@@ -218,10 +220,21 @@ impl<W: Word> TriangleRows<W> {
         [(self.row, self.row); BLOCK]
     }
 
-    /// The next rows, as many as there is room for: the first of them, and of each the first column and the one after the last.
+    /// What is left of the last row, if anything, else the next rows, at most `room` of them: the first, and of each the first
+    /// column and the one after the last.
     #[inline(always)]
-    pub(crate) fn walk<'a>(&mut self, columns: &'a mut [(i32, i32)]) -> Option<(i32, &'a mut [(i32, i32)])> {
+    pub(crate) fn walk<'a>(
+        &mut self,
+        block: &'a mut [(i32, i32); BLOCK],
+        room: usize,
+        rest: Option<(i32, i32)>,
+    ) -> Option<(i32, &'a mut [(i32, i32)])> {
+        if let Some(rest) = rest {
+            block[0] = rest;
+            return Some((self.row.wrapping_sub(1), &mut block[..1]));
+        }
         let row = self.row;
+        let columns = block.get_mut(..room)?;
         let count = if row < self.end { self.fill(columns) } else { 0 };
         Some((row, columns.get_mut(..count)?)).filter(|_| count > 0)
     }
@@ -259,9 +272,9 @@ impl<W: Word> TriangleRows<W> {
 
 impl<W: Word> Side<W> {
     #[inline(always)]
-    fn new(corners: [(i32, i32); 3]) -> Self {
+    fn new(corners: [(i32, i32); 3], word: i32) -> Self {
         Side {
-            edge: Edge::placeholder(0),
+            edge: Edge::placeholder(word),
             corners,
             end: i32::MIN,
         }
