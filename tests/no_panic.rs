@@ -6,7 +6,7 @@ use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::depth::{Always, DepthBuffer, LessOrEqual, NoDepth, Options, Relation, Switched};
 use fixel::disc::Disc;
 use fixel::draw;
-use fixel::fragment::{Antialiased, Fragment};
+use fixel::fragment::{Antialiased, Compact, Fragment};
 use fixel::matrix::Matrix;
 use fixel::mesh::{Cache, Mesh};
 use fixel::num::{Block, Word};
@@ -255,6 +255,7 @@ fn draw_kind<T: Word, W: Word, V: Carried>(
         row: vec![0; 70],
     });
     draw::primitive(view, &mut color, &mut depth, &vertices, &look::<V>());
+    draw::primitive(view, &mut color, &mut depth, &vertices, &Compact(look::<V>()));
     let [a, b, c] = vertices;
     draw::primitive_segment(view, &mut color, &mut depth, &[a, b], &look::<V>());
     draw::primitive_wu_line(view, &mut color, &mut depth, &[b, c], &look::<V>());

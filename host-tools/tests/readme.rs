@@ -88,13 +88,14 @@ fn the_workloads_are_the_stored_ones() {
     let per_triangle = |[instructions, _]: [f64; 2]| format!("{:.0}", instructions / 2000.0);
     let per_frame = |[instructions, _]: [f64; 2]| format!("{:.2} M", instructions / 1e6);
     type Figure<'a> = &'a dyn Fn([f64; 2]) -> String;
-    let rows: [(&str, &str, Figure<'_>); 7] = [
+    let rows: [(&str, &str, Figure<'_>); 9] = [
         ("W1", "one flat triangle, per pixel", &per_pixel),
         (
             "W2",
             "Gouraud with depth, half of it hidden, per covered pixel",
             &per_pixel,
         ),
+        ("W2_compact", "the same in less flash (`fragment::Compact`)", &per_pixel),
         (
             "W3_exact",
             "textured in perspective with depth, a division per pixel",
@@ -106,6 +107,7 @@ fn the_workloads_are_the_stored_ones() {
             &per_pixel,
         ),
         ("W4", "triangles of 10 px, Gouraud with depth, each", &per_triangle),
+        ("W4_compact", "the same in less flash", &per_triangle),
         (
             "W5",
             "a mesh of 5,804 triangles, transformed, lit, culled, drawn",

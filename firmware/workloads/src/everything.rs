@@ -13,7 +13,7 @@ use fixel::dither;
 use fixel::draw;
 use fixel::edge::{Edge, first_row};
 use fixel::error::Error;
-use fixel::fragment::{Antialiased, Flat, Flat565, Fragment, Gouraud565};
+use fixel::fragment::{Antialiased, Compact, Flat, Flat565, Fragment, Gouraud565};
 use fixel::gradient::Basis;
 use fixel::light::world::{FULL, Glossy, Material, PointLights};
 use fixel::light::{Lights, Matte, Shiny, Sunlight};
@@ -153,6 +153,8 @@ fn small(part: &mut Part<'_>) -> Result<(), Error> {
     let colors = |i: u8| Gouraud565::corner(black_box(i), 2, 3);
     let colored = [1, 2, 3].map(|i| corner(i, colors(i)));
     draw::triangle(&mut target, &mut depth, colored, &Packed);
+    draw::triangle(&mut target, &mut depth, colored, &Compact(Packed));
+    draw::triangle(&mut target, &mut NoDepth, corners, &Compact(Flat565::new(black_box(7))));
     let texels = black_box([[1u16, 2], [3, 4]]);
     let textured = [4, 9, 20].map(|i| corner(i, Perspective::new(black_box([7, 8]), black_box(1 << 30))));
     draw::triangle(&mut target, &mut depth, textured, &Tiled565::new(&texels));

@@ -8,8 +8,8 @@ use heapless::{String, Vec};
 
 use crate::bytes::{Vertex, triangles};
 use crate::draw::{
-    flat, flat_depth, gouraud, gouraud_depth, prepare_flat, prepare_gouraud, prepare_spanned, prepare_textured,
-    spanned_depth, textured_depth,
+    flat, flat_depth, gouraud, gouraud_depth, gouraud_depth_compact, prepare_flat, prepare_gouraud, prepare_spanned,
+    prepare_textured, spanned_depth, textured_depth,
 };
 use crate::frame::Frame;
 use crate::machine::{Line, Machine};
@@ -27,6 +27,16 @@ pub fn run(machine: &mut impl Machine, frame: &mut Frame, file: &[u8]) {
     if let Some(triangles) = triangles(file, "W2") {
         measure(machine, frame, "W2", triangles, prepare_gouraud, gouraud_depth);
     }
+    if let Some(triangles) = triangles(file, "W2") {
+        measure(
+            machine,
+            frame,
+            "W2_compact",
+            triangles,
+            prepare_gouraud,
+            gouraud_depth_compact,
+        );
+    }
     if let Some(triangles) = triangles(file, "W3") {
         measure(machine, frame, "W3_exact", triangles, prepare_textured, textured_depth);
     }
@@ -35,6 +45,16 @@ pub fn run(machine: &mut impl Machine, frame: &mut Frame, file: &[u8]) {
     }
     if let Some(triangles) = triangles(file, "W4") {
         measure(machine, frame, "W4", triangles, prepare_gouraud, gouraud_depth);
+    }
+    if let Some(triangles) = triangles(file, "W4") {
+        measure(
+            machine,
+            frame,
+            "W4_compact",
+            triangles,
+            prepare_gouraud,
+            gouraud_depth_compact,
+        );
     }
     mesh::run(machine, frame, file);
     for shape in SHAPES {

@@ -7,7 +7,7 @@ use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::depth::{Less, LessOrEqual};
 use fixel::draw;
 use fixel::error::Error;
-use fixel::fragment::{Antialiased, Flat, Fragment, Gouraud565};
+use fixel::fragment::{Antialiased, Compact, Flat, Fragment, Gouraud565};
 use fixel::matrix::Matrix;
 use fixel::mesh::{Cache, Mesh, Normalized};
 use fixel::num::{Angle, Block, Scaled, Word};
@@ -15,7 +15,7 @@ use fixel::patch::{ControlPoint, Level, PatchVertex, RectangularPatch, Triangula
 use fixel::quality::Quality;
 use fixel::texture::{Floor, Nearest, Rgb565};
 use fixel::varying::Color565;
-use fixel::view::{Cull, Vertex, View};
+use fixel::view::{Carried, Cull, Vertex, View};
 use fixel::viewport::Viewport;
 
 use super::part::{HEIGHT, Part, WIDTH};
@@ -90,13 +90,25 @@ fn textured<Q: Quality, T: Word, W: Word, const N: usize>(
     triangles: &[[Point; 3]],
 ) -> Result<(), Error> {
     let fragment = Textured::<Q>(Nearest::new(TEXTURE?, 16), PhantomData);
+    each(part, view, triangles, &fragment)
+}
+
+fn each<T: Word, W: Word, F, const N: usize>(
+    part: &mut Part<'_>,
+    view: &View<T, W, N>,
+    triangles: &[[Point; 3]],
+    fragment: &F,
+) -> Result<(), Error>
+where
+    F: Fragment<Varying: Carried<Vertex = [i32; 2]>, Pixel = u16>,
+{
     let (mut color, mut depth) = part.compared::<LessOrEqual>()?;
     for corners in black_box(triangles) {
         let corners = corners.map(|(position, st)| Vertex {
             position: Block::from_integers(position),
             carried: st.map(|v| v << 16),
         });
-        draw::primitive(view, &mut color, &mut depth, &corners, &fragment);
+        draw::primitive(view, &mut color, &mut depth, &corners, fragment);
     }
     Ok(())
 }
@@ -106,21 +118,30 @@ pub fn perspective_nearest<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error>
 }
 
 /// Corners behind the camera.
+const THROUGH: [[Point; 3]; 3] = [
+    [
+        ([-3, -1, 2, 1], [0, 0]),
+        ([3, -1, 3, 1], [9, 0]),
+        ([0, -1, -35, 1], [4, 40]),
+    ],
+    [
+        ([-3, 3, -2, 1], [0, 0]),
+        ([1, 2, -90, 1], [9, 0]),
+        ([2, -1, 7, 1], [4, 4]),
+    ],
+    [([0, 0, 1, 1], [0, 0]), ([1, 0, 2, 1], [1, 0]), ([0, 1, 3, 1], [0, 1])],
+];
+
 pub fn near_plane<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
-    const THROUGH: [[Point; 3]; 3] = [
-        [
-            ([-3, -1, 2, 1], [0, 0]),
-            ([3, -1, 3, 1], [9, 0]),
-            ([0, -1, -35, 1], [4, 40]),
-        ],
-        [
-            ([-3, 3, -2, 1], [0, 0]),
-            ([1, 2, -90, 1], [9, 0]),
-            ([2, -1, 7, 1], [4, 4]),
-        ],
-        [([0, 0, 1, 1], [0, 0]), ([1, 0, 2, 1], [1, 0]), ([0, 1, 3, 1], [0, 1])],
-    ];
     textured::<Q, _, _, _>(part, &view::<Q, i32, i32, 0>(&[])?, &THROUGH)
+}
+
+/// By less code, with triangles that are whole too.
+pub fn near_plane_compact<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
+    let fragment = Compact(Textured::<Q>(Nearest::new(TEXTURE?, 16), PhantomData));
+    let view = view::<Q, i32, i32, 0>(&[])?;
+    each(part, &view, &ROOM, &fragment)?;
+    each(part, &view, &THROUGH, &fragment)
 }
 
 /// Cut by two planes of the user.

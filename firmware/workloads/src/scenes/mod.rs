@@ -35,7 +35,7 @@ pub struct Tier {
 }
 
 /// Scenes in every tier.
-pub const SCENES: usize = 44;
+pub const SCENES: usize = 46;
 
 /// Every scene in the tier `Q`. What has neither values between corners, light nor angles is the same in all of them, and is
 /// drawn for each by the same function.
@@ -45,6 +45,7 @@ const fn scenes<Q: Quality>() -> [(&'static str, Draw); SCENES] {
         ("flat_depth", raster::flat_depth),
         ("gouraud", raster::gouraud::<Q>),
         ("gouraud_depth", raster::gouraud_depth::<Q>),
+        ("gouraud_compact", raster::gouraud_compact::<Q>),
         ("texture_nearest", raster::texture_nearest),
         ("guard_band", raster::guard_band::<Q>),
         ("depth_comparisons", raster::depth_comparisons),
@@ -58,6 +59,7 @@ const fn scenes<Q: Quality>() -> [(&'static str, Draw); SCENES] {
         ("billboards", raster::billboards),
         ("perspective_nearest", camera::perspective_nearest::<Q>),
         ("near_plane", camera::near_plane::<Q>),
+        ("near_plane_compact", camera::near_plane_compact::<Q>),
         ("user_planes", camera::user_planes::<Q>),
         ("both_signs_of_w", camera::both_signs_of_w::<Q>),
         ("culled_mesh", camera::culled_mesh::<Q>),

@@ -9,7 +9,7 @@ use fixel::depth::{
 use fixel::disc::Disc;
 use fixel::draw;
 use fixel::error::Error;
-use fixel::fragment::{Antialiased, Flat, Fragment, Gouraud565};
+use fixel::fragment::{Antialiased, Compact, Flat, Fragment, Gouraud565};
 use fixel::quality::Quality;
 use fixel::screen::{Center, Corner, FineDepth, Position, SubPx};
 use fixel::square::Square;
@@ -89,6 +89,15 @@ pub fn gouraud_depth<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let (mut color, mut depth) = part.compared::<Less>()?;
     for (corners, _) in triangles() {
         draw::triangle(&mut color, &mut depth, shaded::<Q>(corners), &Q::GOURAUD);
+    }
+    Ok(())
+}
+
+/// By less code.
+pub fn gouraud_compact<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
+    let (mut color, mut depth) = part.compared::<Less>()?;
+    for (corners, _) in triangles() {
+        draw::triangle(&mut color, &mut depth, shaded::<Q>(corners), &Compact(Q::GOURAUD));
     }
     Ok(())
 }

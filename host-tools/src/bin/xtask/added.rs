@@ -21,6 +21,8 @@ pub const MOST_RAM: usize = 1024;
 pub struct Sizes {
     /// Of code and constants over an empty firmware, at opt-level 3 and at s.
     pub flash: [usize; 2],
+    /// The same of [compact](fixel::fragment::Compact) drawing.
+    pub compact: [usize; 2],
     /// Of variables beside the buffers.
     pub variables: usize,
     /// Of stack while drawing.
@@ -31,8 +33,8 @@ impl Sizes {
     /// Of images built here for the Cortex-M4F.
     pub fn measure() -> Result<Self, Failure> {
         let toolchain = Toolchain::find(M4.target)?;
-        let (mut flash, mut variables) = ([0; 2], 0);
-        for (bytes, profile) in flash.iter_mut().zip(PROFILES) {
+        let (mut flash, mut compact, mut variables) = ([0; 2], [0; 2], 0);
+        for ((bytes, fewer), profile) in flash.iter_mut().zip(&mut compact).zip(PROFILES) {
             let size = |name| {
                 let file = build_size(&toolchain, profile, name)?;
                 let bytes = fs::read(&file).map_err(|e| Failure::trouble(file.display(), e))?;
@@ -41,12 +43,14 @@ impl Sizes {
             };
             let ((empty, _), (w2, ram)) = (size("empty")?, size("w2")?);
             *bytes = w2.saturating_sub(empty);
+            *fewer = size("w2_compact")?.0.saturating_sub(empty);
             variables = ram.saturating_sub(size_of::<Frame>());
         }
         let stack = emulator::run(&M4, &build_size(&toolchain, PROFILES[0], "stack")?)?;
         let stack = stack.trim().parse();
         Ok(Sizes {
             flash,
+            compact,
             variables,
             stack: stack.map_err(|e| Failure::trouble("bytes of stack", e))?,
         })

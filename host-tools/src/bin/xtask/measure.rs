@@ -201,10 +201,16 @@ fn as_json(report: &Report) -> Value {
         report.values.iter().map(Figure::as_json).collect::<Map<_, _>>().into(),
     );
     let sizes = &report.sizes;
-    let [flash, flash_s] = sizes.flash;
+    let ([flash, flash_s], [compact, compact_s]) = (sizes.flash, sizes.compact);
     object.insert(
         "bytes".into(),
-        json!({"W2_flash": flash, "W2_flash_s": flash_s, "W2_ram": sizes.ram()}),
+        json!({
+            "W2_flash": flash,
+            "W2_flash_s": flash_s,
+            "W2_compact_flash": compact,
+            "W2_compact_flash_s": compact_s,
+            "W2_ram": sizes.ram(),
+        }),
     );
     let rival = |rival: &Rival| {
         let mut about = Map::new();

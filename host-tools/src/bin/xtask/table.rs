@@ -115,6 +115,9 @@ fn print_sizes(sizes: &Sizes) {
     let ([flash, flash_s], [most, most_s]) = (sizes.flash, MOST_FLASH);
     line("flash over an empty firmware, 3", flash, most);
     line("flash over an empty firmware, s", flash_s, most_s);
+    let [compact, compact_s] = sizes.compact;
+    line("the same, compact drawing, 3", compact, most);
+    line("the same, compact drawing, s", compact_s, most_s);
     line("RAM beside the buffers", sizes.ram(), MOST_RAM);
     println!("  of which stack {:>29}\n", sizes.stack);
 }
