@@ -208,8 +208,8 @@ where
     }
 }
 
-/// Draws a triangle with an `area` whose varying has slopes: one set of them for all of it, or where it is too large or too thin one for each
-/// piece of a span.
+/// Draws a triangle with an `area` whose varying has slopes: one set of them for all of it, or where it is too large or too thin
+/// one for each piece of a span.
 #[inline(always)]
 fn rows_of_triangle<W, C, D, S, F>(color: &mut C, depth: &mut D, shape: &S, area: i64, fragment: &F)
 where

@@ -8,10 +8,11 @@
 //! **Error.** Weights are in units of 2^-(32 − up) per pixel, to 2^-29 of the largest, with `up` the least that keeps them
 //! below 2^30: 0 where the triangle is 4 px high in every direction, one more for each halving of that. A step is cut to
 //! 2^up units of its value, and by the weights' cut to as much again where the value uses all of 31 bits; the value at the
-//! anchor, which is within half a column and row of the first corner, is that corner's and a part of a step, and off by less. [`Weights`] exist where rows
-//! and columns of the triangle's box together are at most 1024 >> up, those two among them. A step is off by 4 times 2^up units or
-//! less, of 23 bits by little more than one. So a value of 31 bits is within 2^12 units, an eighth of a step of depth, and one of
-//! 23 bits (a channel of RGB565 in 2^-16 level) within 1100 units (`tests/narrow.rs`, `tests/bounds.rs`). Whoever uses slopes leaves that much room at both ends of his range.
+//! anchor, which is within half a column and row of the first corner, is that corner's and a part of a step, and off by less.
+//! [`Weights`] exist where rows and columns of the triangle's box together are at most 1024 >> up, two of them for the anchor. A
+//! step is off by 4 times 2^up units or less, of 23 bits by little more than one. So a value of 31 bits is within 2^12 units, an
+//! eighth of a step of depth, and one of 23 bits (a channel of RGB565 in 2^-16 level) within 1100 units (`tests/narrow.rs`,
+//! `tests/bounds.rs`). Whoever uses slopes leaves that much room at both ends of his range.
 
 use core::convert::Infallible;
 

@@ -230,8 +230,9 @@ impl<W: Word> TriangleRows<W> {
         rest: Option<(i32, i32)>,
     ) -> Option<(i32, &'a mut [(i32, i32)])> {
         if let Some(rest) = rest {
-            block[0] = rest;
-            return Some((self.row.wrapping_sub(1), &mut block[..1]));
+            let columns = block.first_chunk_mut::<1>()?;
+            *columns = [rest];
+            return Some((self.row.wrapping_sub(1), columns));
         }
         let row = self.row;
         let columns = block.get_mut(..room)?;

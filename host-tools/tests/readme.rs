@@ -124,6 +124,37 @@ fn the_workloads_are_the_stored_ones() {
     assert!(readme().contains(&expected), "README should show\n{expected}");
 }
 
+/// So is its flash.
+#[test]
+fn the_flash_is_the_stored_one() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let stored = std::fs::read_to_string(root.join("firmware/sizes.json")).unwrap();
+    let stored: serde_json::Value = serde_json::from_str(&stored).unwrap();
+    let bytes = &stored["thumbv7em-none-eabihf"]["bytes"];
+    let rows = [
+        ("W2", "Gouraud with depth, from corners on the screen"),
+        ("W2_compact", "the same, compact"),
+        ("flat", "flat, transformed and clipped"),
+        ("flat_compact", "the same, compact"),
+        ("gouraud", "Gouraud with depth, transformed and clipped"),
+        ("gouraud_compact", "the same, compact"),
+        (
+            "textured",
+            "textured in perspective with depth, transformed and clipped",
+        ),
+        ("everything", "everything"),
+    ];
+    let expected = rows.map(|(set, title)| {
+        let kib = |profile: &str| {
+            let bytes = bytes[format!("{set}/{profile}")].as_f64();
+            bytes.map_or("–".into(), |bytes| format!("{:.1}", bytes / 1024.0))
+        };
+        format!("| {title} | {} | {} |\n", kib("s"), kib("3"))
+    });
+    let expected = expected.concat();
+    assert!(readme().contains(&expected), "README should show\n{expected}");
+}
+
 /// So is what the tiers trade.
 #[test]
 fn the_tiers_are_the_stored_ones() {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde_json::{Map, Value, json};
 
+use crate::added::Sizes as Added;
 use crate::board::{Board, M4};
 use crate::elf::Elf;
 use crate::emulator;
@@ -64,8 +65,9 @@ pub fn check(update: bool) -> Result<Vec<String>, Failure> {
     };
     for board in &BOARDS {
         let toolchain = Toolchain::find(board.target)?;
-        let sizes = sizes(board, &toolchain)?;
+        let mut sizes = sizes(board, &toolchain)?;
         print_sizes(board, toolchain.version(), &sizes);
+        sizes.extend(raster_door()?);
         print_rooms(board)?;
         judge(board.target, toolchain.version(), &sizes);
     }
@@ -104,6 +106,15 @@ fn sizes(board: &Board, toolchain: &Toolchain) -> Result<Vec<(String, u32)>, Fai
         }
     }
     Ok(sizes)
+}
+
+/// The same of the raster door alone, which `cargo xtask measure` prints.
+fn raster_door() -> Result<Vec<(String, u32)>, Failure> {
+    let Added { flash, compact, .. } = Added::measure()?;
+    let both = [("W2", flash), ("W2_compact", compact)];
+    let named =
+        both.map(|(set, [fast, small])| [(format!("{set}/3"), fast as u32), (format!("{set}/s"), small as u32)]);
+    Ok(named.into_iter().flatten().collect())
 }
 
 fn print_sizes(board: &Board, compiler: &str, sizes: &[(String, u32)]) {
