@@ -251,9 +251,16 @@ where
             let mut span = Span::new(row, *columns, &window);
             while span.left < span.right {
                 let left_over = inside.span(color, depth, &span, fragment);
+                if left_over == 0 {
+                    break;
+                }
                 // Looked up once more: kept, it would take registers.
                 span = Span::new(row, *columns, &window);
                 span.left = span.right.wrapping_sub(left_over as i32);
+                if !F::COMPACT {
+                    inside.shade_others(color, depth, &span, fragment);
+                    break;
+                }
             }
         }
     }

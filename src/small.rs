@@ -20,6 +20,7 @@
 //! corner to the sample nearest to it: below 4096 units, an eighth of a step of depth. [Colours](crate::varying::Color565) are
 //! cut to 2^-11 level in each step, and within a 64th of a level.
 
+use core::cell::Cell;
 use core::hint::black_box;
 
 use crate::depth::Depth;
@@ -336,13 +337,13 @@ fn lay(weights: &mut SmallWeights, &[a, b, c]: &[Point; 3], extent: u32) -> bool
 #[cold]
 #[inline(never)]
 fn skip(spans: &mut Spans, count: usize, kept: usize) {
-    for to in 0..kept {
-        let Some(&span) = spans.get(count.wrapping_add(to)) else {
-            return;
-        };
-        if let Some(above) = spans.get_mut(to) {
-            *above = span;
-        }
+    // Shared, so that what is read may overlap with what is written: four instructions a row.
+    let spans = Cell::from_mut(spans.as_mut_slice()).as_slice_of_cells();
+    let Some(from) = spans.get(count..).and_then(|below| below.get(..kept)) else {
+        return;
+    };
+    for (to, from) in spans.iter().zip(from) {
+        to.set(from.get());
         single(());
     }
 }
