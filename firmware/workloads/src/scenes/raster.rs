@@ -93,11 +93,19 @@ pub fn gouraud_depth<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// By less code.
+/// By less code, small triangles too: what has a way of its own otherwise.
 pub fn gouraud_compact<Q: Quality>(part: &mut Part<'_>) -> Result<(), Error> {
     let (mut color, mut depth) = part.compared::<Less>()?;
+    let an_eighth = |v: SubPx| SubPx::from_bits(v.to_bits() >> 3);
     for (corners, _) in triangles() {
-        draw::triangle(&mut color, &mut depth, shaded::<Q>(corners), &Compact(Q::GOURAUD));
+        let corners = shaded::<Q>(corners);
+        let small = corners.map(|corner| Corner {
+            position: Position::nearest(an_eighth(corner.position.x()), an_eighth(corner.position.y())),
+            depth: FineDepth::ZERO,
+            ..corner
+        });
+        draw::triangle(&mut color, &mut depth, corners, &Compact(Q::GOURAUD));
+        draw::triangle(&mut color, &mut depth, small, &Compact(Q::GOURAUD));
     }
     Ok(())
 }
