@@ -52,8 +52,9 @@ pub trait Fragment {
 /// Another fragment program, drawn by less code: where flash is short, or few triangles are small.
 ///
 /// Triangles below 16 columns and rows go the way of the others instead of [one of their own](crate::draw::triangle), and what
-/// a view has left goes the way of polygons, a triangle or not. The same pixels are covered, and what they get is within the
-/// same bounds, though not always to the last bit; on any machine and in any strip it is the same.
+/// a view has left goes the way of polygons, a triangle or not. The same pixels are covered. What they get is within the
+/// bounds that are stated for triangles, of a view for polygons (looser on spans beyond 1024 px), though not always the same to
+/// the last bit; on any machine and in any strip it is.
 ///
 /// ```
 /// use fixel::depth::NoDepth;
