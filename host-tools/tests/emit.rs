@@ -27,13 +27,18 @@ fn scenes(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
 }
 
 fn emitted(file: &Path) -> (String, Emitted) {
+    match file.extension().and_then(|e| e.to_str()) {
+        Some("txt") => emitted_with(file, &[]),
+        _ => emitted_with(file, &["--size", "60x40"]),
+    }
+}
+
+/// With these words on the command line.
+fn emitted_with(file: &Path, words: &[&str]) -> (String, Emitted) {
     let name = file.file_stem().unwrap().to_string_lossy().into_owned();
-    let args = Args::from(["host-render", file.to_str().unwrap(), "--size", "60x40"]);
-    let args = match file.extension().and_then(|e| e.to_str()) {
-        Some("txt") => Args::from(["host-render", file.to_str().unwrap()]),
-        _ => args,
-    };
-    let loaded = load(file, &args.unwrap()).unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
+    let all = ["host-render", file.to_str().unwrap()];
+    let args = Args::from(all.iter().chain(words)).unwrap();
+    let loaded = load(file, &args).unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
     let emitted = emit(&loaded.scene, "a test").unwrap_or_else(|fault| panic!("{name}: {fault}"));
     (name, emitted)
 }
@@ -79,9 +84,13 @@ fn build(name: &str, scenes: &[(String, Emitted)]) -> PathBuf {
 fn build_crate(name: &str, sources: &[(&str, &str)]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(folder.join("src")).unwrap();
+    let library = match sources.iter().any(|(file, _)| *file == "lib.rs") {
+        true => "[lib]\nname = \"emitted\"\n\n",
+        false => "",
+    };
     let manifest = format!(
-        "[package]\nname = \"emitted\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\nfixel = {{ path = {:?} }}\n\n\
-         [profile.dev]\nopt-level = 1\ndebug = false\n\n[workspace]\n",
+        "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n{library}\
+         [dependencies]\nfixel = {{ path = {:?} }}\n\n[profile.dev]\nopt-level = 1\ndebug = false\n\n[workspace]\n",
         root()
     );
     fs::write(folder.join("Cargo.toml"), manifest).unwrap();
@@ -89,14 +98,16 @@ fn build_crate(name: &str, sources: &[(&str, &str)]) -> PathBuf {
     for (file, text) in sources {
         fs::write(folder.join("src").join(file), text).unwrap();
     }
+    // One for all, so that the core is compiled once.
+    let target = folder.with_file_name("emitted-target");
     let built = Command::new(env!("CARGO"))
         .args(["build", "--offline", "--quiet", "--target-dir"])
-        .arg(folder.join("target"))
+        .arg(&target)
         .current_dir(&folder)
         .output()
         .expect("cargo runs");
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-    folder.join("target/debug/emitted")
+    target.join("debug").join(name)
 }
 
 /// Compares the bytes of all scenes, drawn in strips of so many rows.
@@ -139,9 +150,13 @@ fn check_format(texts: &[(String, String)]) {
 
 fn check(name: &str, files: &[PathBuf]) {
     let scenes: Vec<_> = files.iter().map(|file| emitted(file)).collect();
-    let program = build(name, &scenes);
+    check_emitted(name, &scenes);
+}
+
+fn check_emitted(name: &str, scenes: &[(String, Emitted)]) {
+    let program = build(name, scenes);
     for rows in [u16::MAX, 16, 7] {
-        compare(&program, rows, &scenes);
+        compare(&program, rows, scenes);
     }
     let unneeded = scenes.iter().filter(|(_, e)| e.text.contains("NoDepth")).count();
     println!(
@@ -175,6 +190,42 @@ fn conformance_scenes_draw_the_same_bytes() {
     let texts: Vec<_> = emitted.iter().map(|(name, e)| (name.clone(), e.text.clone())).collect();
     check_format(&texts);
     check("emitted-conformance", &files);
+}
+
+/// With Gouraud shading, the default, they are among the others.
+#[test]
+fn models_draw_the_same_bytes_with_any_shading() {
+    let mut files = scenes(&root().join("tests/scenes"), &["iv", "obj"]);
+    assert!(files.len() > 3);
+    match std::env::var_os("FIXEL_CONFORMANCE") {
+        Some(folder) => {
+            let folder = Path::new(&folder).join("iv");
+            files.extend(scenes(&folder, &["iv"]));
+            files.extend(scenes(&folder.join("made"), &["iv"]));
+            // Thousands of faces: most of a minute to compile.
+            let slow = ["lion1.iv", "sphere.iv"];
+            files.retain(|file| !slow.iter().any(|name| file.ends_with(name)));
+            eprintln!("SKIPPED: {} take most of a minute", slow.join(", "));
+        }
+        None => eprintln!("SKIPPED: FIXEL_CONFORMANCE is not set, no official model is emitted"),
+    }
+    let cases = files
+        .iter()
+        .flat_map(|file| ["flat", "phong"].map(|shading| (file, shading)));
+    let all: Vec<_> = cases
+        .map(|(file, shading)| {
+            let (name, emitted) = emitted_with(file, &["--size", "60x40", "--shading", shading]);
+            (format!("{name}_{shading}"), emitted)
+        })
+        .collect();
+    let programs = |of: &str| all.iter().filter(|(_, e)| e.text.contains(of)).count();
+    assert!(
+        programs("Glossy {") > 1 && programs("light::Matte") > 1,
+        "both kinds of light at pixels"
+    );
+    let texts: Vec<_> = all.iter().map(|(name, e)| (name.clone(), e.text.clone())).collect();
+    check_format(&texts);
+    check_emitted("emitted-models", &all);
 }
 
 /// Draws an emitted mesh turned in some ways, as it says and triangle by triangle with a depth buffer.

@@ -35,8 +35,13 @@ pub fn text(number: usize, lights: &Lights) -> String {
 static LIGHTS_{number}: [([i64; 3], i32, [i32; 3], i32); {count}] = [
 {rows}];
 
+/// The eye's place times two to the power behind it.
+#[rustfmt::skip]
+static EYE_{number}: ([i64; 3], i32) = ({:?}, {});
+
 fn lights_{number}() -> PointLights<i64, {count}> {{
-    let mut lights = PointLights::new(Block::new({:?}, {}));
+    let (place, exponent) = EYE_{number};
+    let mut lights = PointLights::new(Block::new(place, exponent));
     for &(place, exponent, color, power) in &LIGHTS_{number} {{
         // There is room for all.
         let _ = lights.add(PointLight {{

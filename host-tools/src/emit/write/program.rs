@@ -246,19 +246,29 @@ fn sampled(texture: &str) -> String {
     statement("texture", texture) + &statement("texel", "texture.texel([s, t])")
 }
 
-/// `let name = value;`, a structure over several lines where it is long.
+/// `let name = value;`.
 fn statement(name: &str, value: &str) -> String {
-    let short = format!("        let {name} = {value};\n");
-    match value.split_once(" { ") {
-        Some((of, fields)) if value.len() > 18 && value.ends_with(" }") => {
-            let mut text = format!("        let {name} = {of} {{\n");
-            for field in split_fields(fields.trim_end_matches(" }")) {
-                text += &format!("            {field},\n");
-            }
-            text + "        };\n"
-        }
-        _ => short,
+    format!("        let {name} = {};\n", literal(value, "        "))
+}
+
+/// A value, a structure over several lines where it is long, those within it as well; `indent` is its line's.
+fn literal(value: &str, indent: &str) -> String {
+    let fields = value
+        .split_once(" { ")
+        .and_then(|(of, fields)| Some((of, fields.strip_suffix(" }")?)));
+    let Some((of, fields)) = fields.filter(|_| value.len() > 18) else {
+        return value.to_owned();
+    };
+    let inner = format!("{indent}    ");
+    let mut text = format!("{of} {{\n");
+    for field in split_fields(fields) {
+        let field = match field.split_once(": ") {
+            Some((name, value)) => format!("{name}: {}", literal(value, &inner)),
+            None => field,
+        };
+        text += &format!("{inner}{field},\n");
     }
+    text + indent + "}"
 }
 
 /// The fields of a structure, without those within its fields.
@@ -279,4 +289,25 @@ fn split_fields(fields: &str) -> Vec<String> {
     }
     all.push(field.trim().to_owned());
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_structures_take_lines_at_every_depth() {
+        assert_eq!(statement("a", "B { c: 1 }"), "        let a = B { c: 1 };\n");
+        assert_eq!(
+            statement("a", "Outer { first: [1, 2], inner: Inner { x: [100, 200], y: 300 } }"),
+            "        let a = Outer {
+            first: [1, 2],
+            inner: Inner {
+                x: [100, 200],
+                y: 300,
+            },
+        };
+"
+        );
+    }
 }

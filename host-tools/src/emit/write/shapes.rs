@@ -6,6 +6,9 @@ use super::kinds::{Form, Kind};
 use super::{Sorted, program};
 use crate::emit::drawing::{Lights, Varying};
 
+/// Characters of calls behind each other that rustfmt leaves on one line.
+const LONGEST_CHAIN: usize = 60;
+
 /// The text of convex polygons, and of lines that need 64-bit words.
 pub const POLYGON: &str = "/// A convex polygon, or a line: positions in 1/256 px, depths in 2^-15 step, values.
 struct Polygon<V, const N: usize> {
@@ -287,9 +290,14 @@ fn push_shape(sorted: &Sorted<'_>, kind: &Kind, made: &str, code: &mut String) {
     if sorted.is_general(kind) {
         let word = if sorted.drawing.wide { "i64" } else { "i32" };
         let most = kind.most_corners;
+        let made = format!(".map(|&index| {snake}_corner(index))");
+        let chain = match "rest.iter()".len() + made.len() {
+            ..=LONGEST_CHAIN => format!("rest.iter(){made}"),
+            _ => format!("rest\n            .iter()\n            {made}"),
+        };
         let _ = write!(
             code,
-            "        let rest = rest.iter().map(|&index| {snake}_corner(index));
+            "        let rest = {chain};
         let polygon = Polygon::<_, {most}>::new({snake}_corner(first), rest);
 "
         );
