@@ -173,6 +173,10 @@ fn own_scenes_draw_the_same_bytes() {
     files.retain(|file| !slow.iter().any(|name| file.ends_with(name)));
     eprintln!("SKIPPED: {} take minutes", slow.join(", "));
     assert!(files.len() > 30);
+    let folder = tempfile::tempdir().unwrap();
+    let nothing = folder.path().join("nothing.txt");
+    fs::write(&nothing, "png 8 8 nothing.png\n").unwrap();
+    files.push(nothing);
     check("emitted-own", &files);
 }
 

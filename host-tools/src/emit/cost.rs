@@ -225,8 +225,14 @@ fn data(sorted: &Sorted<'_>) -> u64 {
         bytes += numbers.saturating_sub(ends) * index;
     }
     for set in sorted.lights() {
-        let (suns, bulbs) = counts(&drawing.lights[set]);
-        bytes += suns * 24 + bulbs * 40;
+        bytes += match &drawing.lights[set] {
+            lights @ Lights::Eye(_) => {
+                let (suns, bulbs) = counts(lights);
+                suns * 24 + bulbs * 40
+            }
+            // The eye, and of each light a power more.
+            Lights::World(_, lights) => 32 + lights.len() * 48,
+        };
     }
     for texture in sorted.textures() {
         let count = drawing.textures[texture].pixels.len();
@@ -253,28 +259,58 @@ fn size(of: &str) -> usize {
     }
 }
 
-/// What the compiler makes of each function.
+/// What the compiler makes of all functions: what kinds share, and what each has for itself. The numbers are rounded from images
+/// of one scene each, less one of none; `cargo xtask emitted` measures some again.
 fn code(sorted: &Sorted<'_>) -> u64 {
-    let mut bytes = 0;
-    let depth = sorted.drawing.depth.is_some();
-    for kind in &sorted.kinds {
-        let values = kind.values as u64;
-        bytes += match kind.form {
-            Form::Polygon => 1500,
-            Form::Line | Form::SmoothLine => 1400,
-            _ => 1000,
-        };
-        bytes += if depth { 300 } else { 0 };
-        bytes += match kind.varying {
-            Varying::Nothing => 0,
-            Varying::Linear => 300 + 150 * values,
-            Varying::Perspective => 1100 + 250 * values,
-        };
-        bytes += if kind.lights.is_some() { 2600 } else { 0 };
-        bytes += if kind.stores_over_w() { 100 } else { 0 };
-    }
-    bytes += if sorted.blends() { 500 } else { 0 };
-    bytes
+    let (drawing, kinds) = (sorted.drawing, &sorted.kinds);
+    let any = |is: &dyn Fn(&Kind) -> bool| kinds.iter().any(is);
+    let varies = |varying: Varying| any(&|kind| kind.varying == varying);
+    let has = |form: Form| any(&|kind| kind.form == form);
+    let bulbs = |kind: &Kind| kind.lights.is_some_and(|set| counts(&drawing.lights[set]).1 > 0);
+    let surface = |kind: &Kind| matches!(kind.program, Program::Surface { .. });
+    let shiny = |kind: &Kind| matches!(&kind.program, Program::Surface { lit: Some(lit), .. } if lit.shiny.is_some());
+    let is_flat = |kind: &Kind| kind.form == Form::Polygon && kind.varying == Varying::Nothing;
+    let srgb = matches!(drawing.pixels, Pixels::Blended(units) | Pixels::Opaque(units) if units.srgb);
+    let shared = [
+        (450, !kinds.is_empty()),
+        (850, any(&|kind| is_flat(kind) && !sorted.is_general(kind))),
+        (3400, any(&|kind| sorted.is_general(kind))),
+        (
+            1500,
+            drawing.depth.is_some() || any(&|kind| kind.varying != Varying::Nothing),
+        ),
+        (600, varies(Varying::Linear)),
+        (1800, varies(Varying::Perspective)),
+        (6200, any(&|kind| matches!(kind.program, Program::Phong { .. }))),
+        (3250, any(&|kind| surface(kind) && bulbs(kind))),
+        (2100, any(&shiny)),
+        (900, any(&|kind| matches!(kind.program, Program::Paint(_)))),
+        (550, any(&|kind| matches!(kind.program, Program::Corners))),
+        (1150, srgb),
+        (1800, drawing.level > 1),
+        (1900, has(Form::SmoothLine)),
+        (950, has(Form::Disc)),
+    ];
+    let shared: u64 = shared.into_iter().filter(|(_, is)| *is).map(|(bytes, _)| bytes).sum();
+    let own: u64 = kinds.iter().map(|kind| own_code(kind, drawing.depth.is_some())).sum();
+    shared + own
+}
+
+/// Of the function that draws a kind.
+fn own_code(kind: &Kind, depth: bool) -> u64 {
+    let values = kind.values as u64;
+    let form = match kind.form {
+        Form::Polygon => 1400,
+        Form::Line | Form::SmoothLine => 1350,
+        _ => 1100,
+    };
+    let varying = match kind.varying {
+        Varying::Nothing => 0,
+        Varying::Linear => 200 * values,
+        Varying::Perspective => 500 + 500 * values,
+    };
+    let lit = matches!(kind.program, Program::Surface { lit: Some(_), .. });
+    form + varying + if depth { 1300 } else { 0 } + if lit { 1250 } else { 0 }
 }
 
 /// The model: so much to clear and finish the samples; so much for a shape in each strip, for each of its rows, for each

@@ -1,6 +1,7 @@
 //! `cargo xtask emitted`: emitted scenes on the board draw the bytes of `host-render`, and take what was estimated; so do
 //! emitted meshes.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
@@ -17,7 +18,7 @@ use crate::board::{Board, M4};
 use crate::failure::Failure;
 use crate::outcome::{Outcome, find};
 use crate::toolchain::Toolchain;
-use crate::{emulator, image};
+use crate::{emulator, flash, image};
 
 /// Scenes in one image: as many as its flash holds.
 const AT_ONCE: usize = 16;
@@ -37,7 +38,8 @@ const BOARD: Board = Board {
 
 /// Emits, builds, runs and compares.
 pub fn run(scenes: Vec<PathBuf>, size: &str) -> Result<(), Failure> {
-    let files = if scenes.is_empty() { all()? } else { scenes };
+    let are_all = scenes.is_empty();
+    let files = if are_all { all()? } else { scenes };
     let toolchain = Toolchain::find(BOARD.target)?;
     let (mut off, mut far) = (Vec::new(), Vec::new());
     println!(
@@ -93,6 +95,9 @@ pub fn run(scenes: Vec<PathBuf>, size: &str) -> Result<(), Failure> {
         far.len()
     );
     off.extend(far);
+    if are_all {
+        off.extend(flash::check(&BOARD, &toolchain)?);
+    }
     if off.is_empty() {
         Ok(())
     } else {
@@ -125,12 +130,19 @@ fn meshes(size: &str) -> Result<Vec<ShownMesh>, Failure> {
     Ok(meshes)
 }
 
-/// One scene, emitted.
+/// One scene, emitted in this size if it has none of its own.
 fn one(file: &Path, size: &str) -> Result<Emitted, Failure> {
-    let mut words = vec!["host-render".into(), file.as_os_str().to_owned()];
     if file.extension().is_none_or(|ending| ending != "txt") {
-        words.extend(["--size".into(), size.into()]);
+        emitted(file, &["--size", size])
+    } else {
+        emitted(file, &[])
     }
+}
+
+/// One scene, emitted with further words on the command line.
+pub fn emitted(file: &Path, further: &[&str]) -> Result<Emitted, Failure> {
+    let mut words = vec!["host-render".into(), file.as_os_str().to_owned()];
+    words.extend(further.iter().map(OsString::from));
     let args = Args::from(words).map_err(|e| Failure::Usage(e.to_string()))?;
     let loaded = load(file, &args).map_err(|failure| Failure::Trouble(failure.message))?;
     emit(&loaded.scene, "cargo xtask emitted").map_err(|fault| Failure::trouble(file.display(), fault))

@@ -15,6 +15,7 @@ mod emulator;
 mod exactness;
 mod failure;
 mod first_hour;
+mod flash;
 mod flat;
 mod generate;
 mod host;
@@ -106,7 +107,7 @@ enum Command {
         #[arg(long)]
         update_picture: bool,
     },
-    /// Emit scenes, draw them on the Cortex-M4 and compare their bytes with those of `host-render`.
+    /// Emit scenes, draw them on the Cortex-M4 and compare their bytes with those of `host-render`, and what they take with what was estimated.
     Emitted {
         /// Scene files [default: those of tests/scenes, and of the folder that FIXEL_CONFORMANCE names].
         scenes: Vec<PathBuf>,

@@ -177,7 +177,8 @@ pub const EMPTY: Pixel = {empty};
             Some(Nearer::LessOrFar) => "LessOrFar",
             None => {
                 *code += "/// Draws the rows that the target holds: all, or a strip.\n";
-                *code += "pub fn draw<C: Target<Pixel = Pixel>>(color: &mut C) {\n";
+                let color = if self.batches.is_empty() { "_color" } else { "color" };
+                let _ = writeln!(code, "pub fn draw<C: Target<Pixel = Pixel>>({color}: &mut C) {{");
                 for (call, faces) in self.calls() {
                     let _ = writeln!(code, "    {call}(color, &{faces});");
                 }
