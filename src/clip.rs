@@ -298,6 +298,26 @@ impl<T: Word, const N: usize> Planes<T, N> {
         (!polygon.is_empty()).then_some(polygon)
     }
 
+    /// As [`clip`](Self::clip), of a triangle that goes on as the fan from its first corner: each plane begins with the edge from
+    /// the last corner to the first, so that a cut there is the first corner of what is left.
+    pub(crate) fn clip_to_fan(&self, vertices: [Block<T, 4>; 3]) -> Option<Polygon<ClipCorner<T>, N>> {
+        let mut polygon = Polygon::of_vertices(vertices);
+        for plane in self.as_slice() {
+            let corners = &mut polygon.slots();
+            let is_inside = |i| {
+                let corner = corners.held().get(i)?;
+                Some(distance_of(&plane.mantissas(), corner) >= T::Wide::ZERO)
+            };
+            let crosses_last = is_inside(0) != is_inside(corners.held().len().wrapping_sub(1));
+            cut(corners, plane.mantissas());
+            if crosses_last && let Some(&last) = corners.held().get(corners.held().len().wrapping_sub(1)) {
+                corners.remove(corners.held().len() - 1, 1);
+                corners.insert(0, last);
+            }
+        }
+        (!polygon.is_empty()).then_some(polygon)
+    }
+
     /// All of them.
     #[inline(always)]
     pub(crate) fn as_slice(&self) -> &[Block<T, 4>] {

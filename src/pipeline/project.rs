@@ -101,7 +101,12 @@ pub(super) fn triangle<I, T, W, V, const N: usize>(
     W: Word,
     V: Carried,
 {
-    let Some(clipped) = state.planes.clip(positions) else {
+    let clipped = if V::WANTS.fan {
+        state.planes.clip_to_fan(positions)
+    } else {
+        state.planes.clip(positions)
+    };
+    let Some(clipped) = clipped else {
         return;
     };
     let vertices = Given {
@@ -119,11 +124,12 @@ pub(super) fn triangle<I, T, W, V, const N: usize>(
                 return;
             };
             let corners = [a, b, c];
+            let positions = corners.map(as_vertex);
             let vertices = Given {
                 values: corners.map(|corner| V::between(vertices.values, &in_clip_space(corner))),
-                w: corners.map(|corner| w_of(corner.position)),
+                w: positions.map(w_of),
             };
-            let part = Polygon::of_vertices(corners.map(|corner| corner.position));
+            let part = Polygon::of_vertices(positions);
             in_range(part, &vertices, &state.viewport, Culling::Off, wanted, &mut draw);
         }
     } else {
@@ -153,11 +159,13 @@ where
     if V::WANTS.fan {
         let (a, b) = (*line.get(0)?, *line.get(1)?);
         let corners = [&a, &b, &b];
+        let positions = corners.map(as_vertex);
         vertices = Given {
             values: corners.map(|corner| V::between(vertices.values, &in_clip_space(corner))),
-            w: corners.map(|corner| w_of(corner.position)),
+            w: positions.map(w_of),
         };
-        line = Polygon::of_vertices([a.position, b.position]);
+        let [from, to, _] = positions;
+        line = Polygon::of_vertices([from, to]);
     }
     to_view(&mut line.slots(), &state.viewport, DepthRange::Unlimited, Behind::Cut)?;
     let shift = if wanted.depth && beyond_range(&line) {
@@ -327,7 +335,13 @@ where
     })
 }
 
-/// 1/w as that of a vertex would be: homogeneous points have any scale, their weights tell which.
+/// A corner's position at the scale of a vertex there: homogeneous points have any scale, their weights tell which.
+fn as_vertex<T: Word>(corner: &ClipCorner<T>) -> Block<T, 4> {
+    let [a, b, c] = corner.weights.split();
+    corner.position.over(a.plus(b).plus(c)).unwrap_or(corner.position)
+}
+
+/// 1/w of a vertex there.
 fn inverse_w<T: Word>(corner: &ClipCorner<T>) -> Scaled<T> {
     let [a, b, c] = corner.weights.split();
     let whole = a.plus(b).plus(c);
