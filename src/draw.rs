@@ -108,7 +108,7 @@ where
 {
     let window = color.window();
     for (x, y) in Line::new(from, to, window) {
-        if let Some(pixel) = color.row(y).get_mut((x - window.left) as usize)
+        if let Some(pixel) = color.row(y).get_mut(x.wrapping_sub(window.left) as u32 as usize)
             && let Some(new) = fragment.shade((), *pixel)
         {
             *pixel = new;
@@ -289,7 +289,8 @@ impl<V: Varying> Inside<V> {
     }
 
     /// One span: what is hidden at its start costs the comparison and one addition for each pixel, and nothing else is looked
-    /// at before the first visible one. How many pixels are left where one behind a visible one is hidden.
+    /// at before the first visible one. How many pixels are left behind a hidden one that
+    /// comes behind a visible one, or first where a [`Depth`] of one's own skips none.
     #[inline(always)]
     fn span<C, D, F>(&self, color: &mut C, depth: &mut D, span: &Span, fragment: &F) -> usize
     where
@@ -440,7 +441,8 @@ impl<V: Varying> Inside<V> {
         }
     }
 
-    /// `pixels` from the first on, at depth `fine`, up to the first that is hidden, which `cells` tell; how many are left then.
+    /// `pixels` from the first on, at depth `fine`, up to the first that is hidden, which `cells` tell; how many are left
+    /// behind that.
     ///
     /// A function of its own: inlined, the rows' state takes its registers. On Cortex-M4 an RGB565 pixel of interpolated colour
     /// costs 15 instructions here (`cargo xtask measure`), as by hand, on ARMv6-M, which keeps five of its words in memory, 27.

@@ -3,14 +3,20 @@
 mod naive;
 mod triangles;
 
+use std::cell::Cell;
+use std::convert::Infallible;
+use std::iter::{Repeat, Zip, repeat};
+use std::slice::IterMut;
+
 use fixel::clip::{Behind, DepthRange, Planes};
-use fixel::depth::{Always, DepthBuffer, FAR, NoDepth};
+use fixel::depth::{Always, Depth, DepthBuffer, FAR, NoDepth};
 use fixel::draw;
 use fixel::fragment::{Compact, Flat, Fragment, Gouraud565};
 use fixel::matrix::Matrix;
 use fixel::num::{Block, Scaled};
-use fixel::span::doubled_area;
-use fixel::target::Buffer;
+use fixel::screen::{Corner, FineDepth, Position};
+use fixel::span::{Span, doubled_area};
+use fixel::target::{Buffer, Target};
 use fixel::varying::Color565;
 use fixel::view::{Cull, Vertex, View};
 use fixel::viewport::Viewport;
@@ -208,5 +214,74 @@ fn every_triangle_on_a_small_grid() {
                 );
             }
         }
+    }
+}
+
+/// A depth buffer of one's own, which has nothing but what a [`Depth`] must have, and counts the fragments that are tested.
+struct Counted<'a> {
+    depths: Buffer<'a, u16>,
+    tested: &'a Cell<u32>,
+}
+
+impl<'d> Depth for Counted<'d> {
+    type Cell<'a> = (&'a mut u16, &'d Cell<u32>);
+    type Cells<'a>
+        = Zip<IterMut<'a, u16>, Repeat<&'d Cell<u32>>>
+    where
+        Self: 'a;
+    type Block<'a>
+        = Infallible
+    where
+        Self: 'a;
+    const ENABLED: bool = true;
+
+    fn limit(&self, window: Window) -> Window {
+        window
+    }
+    fn cells(&mut self, span: &Span) -> Self::Cells<'_> {
+        let cells = self.depths.span(span.row, span.left, span.right).iter_mut();
+        cells.zip(repeat(self.tested))
+    }
+    fn block(&mut self, _: &Window, _: usize, _: usize) -> Option<Infallible> {
+        None
+    }
+    fn block_cells<'a, 'b: 'a>(block: &'a mut Infallible, _: usize, _: usize) -> Self::Cells<'a>
+    where
+        Self: 'b,
+    {
+        match *block {}
+    }
+    fn test((cell, tested): (&mut u16, &Cell<u32>), depth: u32) -> bool {
+        tested.set(tested.get() + 1);
+        let passes = depth < u32::from(*cell);
+        if passes {
+            *cell = depth as u16;
+        }
+        passes
+    }
+}
+
+/// Of every second column something is nearer: each fragment is tested once, however it is drawn.
+#[test]
+fn each_fragment_is_tested_once() {
+    fn drawn<F: Fragment<Varying = (), Pixel = u8>>(size: i16, fragment: &F) -> (Vec<u8>, u32) {
+        let tested = Cell::new(0);
+        let (mut pixels, mut depths) = (vec![0; 40 * 40], [FAR, 0].repeat(20 * 40));
+        let mut depth = Counted {
+            depths: Buffer::new(&mut depths, 40, 40).unwrap(),
+            tested: &tested,
+        };
+        let corners = [(0, 0), (0, size), (size, 0)].map(|(x, y)| Corner {
+            depth: FineDepth::from_bits(1000 << 15),
+            ..Position::from_pixels(x, y).flat()
+        });
+        draw::triangle(&mut Buffer::new(&mut pixels, 40, 40).unwrap(), &mut depth, corners, fragment);
+        (pixels, tested.get())
+    }
+    for size in [4, 36] {
+        let (pixels, tested) = drawn(size, &Flat(1));
+        assert_eq!(tested as i16, size * (size + 1) / 2, "{size}");
+        assert!(pixels.iter().enumerate().all(|(i, &pixel)| pixel == 0 || i % 2 == 0));
+        assert_eq!(drawn(size, &Compact(Flat(1))), (pixels, tested), "{size}");
     }
 }
