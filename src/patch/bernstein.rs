@@ -97,8 +97,15 @@ pub(super) fn mix<W: Wide, const P: usize, const C: usize>(weights: [i32; P], po
 
 /// The cross product of two exact vectors of x, y, z (w is not looked at), each rounded once before.
 pub(super) fn cross<T: Word>([a, b]: [[T::Wide; 4]; 2]) -> Block<T, 3> {
-    // Directions: the scale of neither matters.
-    let vector = |[x, y, z, _]: [T::Wide; 4]| Block::from_wide([x, y, z], 0);
+    // Directions: the scale of neither matters. Opposite ones are rounded to opposite ones, so that their product is 0.
+    let vector = |[x, y, z, _]: [T::Wide; 4]| {
+        let first = [x, y, z].into_iter().find(|&c| c != T::Wide::ZERO);
+        if first.is_some_and(|c| c < T::Wide::ZERO) {
+            Block::from_wide([-x, -y, -z], 0).negated()
+        } else {
+            Block::from_wide([x, y, z], 0)
+        }
+    };
     vector(a).cross(vector(b))
 }
 
