@@ -50,7 +50,7 @@ pub struct Basis {
 }
 
 impl Basis {
-    /// `None` for a polygon without area.
+    /// `None` for a polygon without area; corners lie within ±[`Word::GUARD`](crate::num::Word::GUARD) px of 64-bit words.
     #[inline(never)]
     pub fn new(corners: &impl Corners) -> Option<Self> {
         let origin = corners.position(0);

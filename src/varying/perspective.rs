@@ -126,7 +126,9 @@ impl<const N: usize> Varying for Perspective<N> {
     #[inline(always)]
     fn values(planes: &PerspectivePlanes<N>, ramps: &PerspectiveRamps<N>) -> [i32; N] {
         if planes.affine {
-            return each(&ramps.over_w, |ramp| (ramp.value >> EXTRA_BITS) as i32);
+            return each(&ramps.over_w, |ramp| {
+                ((ramp.value + (1 << (EXTRA_BITS - 1))) >> EXTRA_BITS) as i32
+            });
         }
         let divisor = Divisor::new(ramps.inverse.value);
         let mut values = each(&ramps.over_w, |ramp| divisor.divide(ramp.value));
@@ -177,7 +179,8 @@ impl Divisor {
         if over_w.unsigned_abs().leading_zeros() < self.shift + 2 {
             return if over_w < 0 { i32::MIN } else { i32::MAX };
         }
-        let quotient = (((over_w << self.shift) >> 31) * self.reciprocal as i64) >> 31;
+        // To the nearest, so that where a quotient is a whole number, as on a border of texels, it is that.
+        let quotient = (((over_w << self.shift) >> 31) * self.reciprocal as i64 + (1 << 30)) >> 31;
         quotient.max(i32::MIN as i64).min(i32::MAX as i64) as i32
     }
 }
