@@ -27,10 +27,10 @@ const _: () = {
     assert!(SUBPIXELS as i64 * extent <= 1 << 29, "twice the denominator fits i32");
 };
 
-/// The first row whose samples lie at or below `y` (in subpixels): ceil.
+/// The first row whose samples lie at or below `y` (in subpixels, up to 2^31 − 256; beyond it wraps): ceil.
 #[inline(always)]
 pub fn first_row(y: i32) -> i32 {
-    (y + (SUBPIXELS - 1)) >> SUBPIXEL_BITS
+    y.wrapping_add(SUBPIXELS - 1) >> SUBPIXEL_BITS
 }
 
 /// An edge at one row; see the [module](self).

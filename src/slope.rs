@@ -9,7 +9,8 @@
 //! below 2^30: 0 where the triangle is 4 px high in every direction, one more for each halving of that. A step is cut to
 //! 2^up units of its value, and by the weights' cut to as much again where the value uses all of 31 bits; the value at the
 //! anchor, which is within half a column and row of the first corner, is that corner's and a part of a step, and off by less.
-//! [`Weights`] exist where rows and columns of the triangle's box together are at most 1024 >> up, two of them for the anchor. A
+//! [`Weights`] exist where rows and columns from the first corner on, the farthest of each, are together at most 1024 >> up, two of
+//! them for the anchor. A
 //! step is off by 4 times 2^up units or less, of 23 bits by little more than one. So a value of 31 bits is within 2^12 units, an
 //! eighth of a step of depth, and one of 23 bits (a channel of RGB565 in 2^-16 level) within 1100 units (`tests/narrow.rs`,
 //! `tests/bounds.rs`). Whoever uses slopes leaves that much room at both ends of his range.
@@ -40,7 +41,7 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Of a triangle on the screen, in subpixels; `None` where it is too large or too thin, or has no area.
+    /// Of a triangle on the screen, in subpixels within ±2^28; `None` where it is too large or too thin, or has no area.
     ///
     /// ```
     /// use fixel::{gradient::Ramp, slope::Weights};
@@ -111,14 +112,15 @@ impl Weights {
         Weights { steps, up: 2 }
     }
 
-    /// The least number for which no row of the triangle has two pixels more than 2^ that apart, of 2 to 10.
+    /// The least number for which no row of the triangle has two pixels more than 2^ that apart, of 2 to 11: from the first corner
+    /// a row reaches less than 1024 columns either way.
     #[inline(always)]
     pub(crate) fn widest_row(&self) -> u32 {
         // Along a row no weight changes by more than 1, which is 2^(32 − up).
         let (b, c) = self.steps.x;
         let sum = ((b >> 1) + (c >> 1)).unsigned_abs() << 1;
         let steepest = b.unsigned_abs() | c.unsigned_abs() | sum;
-        (steepest.leading_zeros() + 1).saturating_sub(self.up).clamp(2, 10)
+        (steepest.leading_zeros() + 1).saturating_sub(self.up).clamp(2, 11)
     }
 
     /// The slope through `values` at the triangle's corners, each less than 2^31 from the first.
@@ -228,7 +230,8 @@ impl SmallWeights {
     pub(crate) fn short<const CUT: u32>(&self, [a, b, c]: [i32; 3]) -> Slope {
         let values = (b.wrapping_sub(a) >> CUT, c.wrapping_sub(a) >> CUT);
         let (x, y) = (short_sum::<CUT>(values, self.x), short_sum::<CUT>(values, self.y));
-        let part = x * self.part.0 + y * self.part.1;
+        // Wrapping: of colours that are none, anything.
+        let part = x.wrapping_mul(self.part.0).wrapping_add(y.wrapping_mul(self.part.1));
         Slope {
             value: (a >> SMALL_UP).wrapping_sub(part >> SUBPIXEL_BITS),
             x,

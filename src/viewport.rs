@@ -213,8 +213,8 @@ impl Ratio {
         }
     }
 
-    /// Within 2 units of the true ratio, and its magnitude no larger than 2^29: the reciprocal is no more than one unit too
-    /// small, and the product is rounded down.
+    /// Within 2 1/8 units of the true ratio, and its magnitude no larger than 2^29: the reciprocal is less than 4 units too small,
+    /// of which a quarter is left here and half at most, and the product is rounded down. 2.0077 units at worst over all w.
     #[inline(always)]
     fn of(&self, v: i32) -> i32 {
         high(v.wrapping_shl(self.shift), self.reciprocal)
@@ -224,8 +224,8 @@ impl Ratio {
 /// The subpixel nearest to ratio · scale + center, unless another is as near but for the error of the ratio.
 #[inline(always)]
 fn nearest<W: Word>(ratio: i32, scale: i32, center: i32) -> Option<i32> {
-    // In units of 2^-32 the ratio's error is 16 · scale at most.
-    let error = 16 * (W::GUARD * SUBPIXELS) as u32;
+    // In units of 2^-32 the ratio's error is 17 · scale at most.
+    let error = 17 * (W::GUARD * SUBPIXELS) as u32;
     // Below 2^29 · 2^26.
     let wide = ((center as i64) << 32) + (1 << 31) + product(ratio, scale << 3);
     let from_middle = (wide as u32).wrapping_add(error);

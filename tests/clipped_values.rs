@@ -3,7 +3,9 @@
 
 mod course;
 
-use course::{Random, SIDE, Seen, Vertex, block, buffer, draw, floats, near, picture, pixel, program, real, state, unit};
+use course::{
+    Random, SIDE, Seen, Vertex, block, buffer, draw, floats, near, picture, pixel, program, real, state, unit,
+};
 use fixel::clip::Planes;
 use fixel::depth::{DepthBuffer, FAR, LessOrEqual, NoDepth};
 use fixel::num::Block;

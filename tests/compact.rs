@@ -275,7 +275,12 @@ fn each_fragment_is_tested_once() {
             depth: FineDepth::from_bits(1000 << 15),
             ..Position::from_pixels(x, y).flat()
         });
-        draw::triangle(&mut Buffer::new(&mut pixels, 40, 40).unwrap(), &mut depth, corners, fragment);
+        draw::triangle(
+            &mut Buffer::new(&mut pixels, 40, 40).unwrap(),
+            &mut depth,
+            corners,
+            fragment,
+        );
         (pixels, tested.get())
     }
     for size in [4, 36] {

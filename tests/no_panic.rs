@@ -18,7 +18,7 @@ use fixel::screen::{Center, Corner, FineDepth, Position, Shape, SubPx};
 use fixel::span::Corners;
 use fixel::square::Square;
 use fixel::target::{Buffer, Target};
-use fixel::varying::{Linear, Linear32, Perspective, Perspective32, PerspectiveSpans, Varying};
+use fixel::varying::{Color565, Linear, Linear32, Perspective, Perspective32, PerspectiveSpans, Varying};
 use fixel::view::{Carried, Cull, Vertex, View};
 use fixel::viewport::Viewport;
 use fixel::window::Window;
@@ -445,6 +445,38 @@ fn draw_lists<I: Interpolation, T: Word, W: Word>(
     let _ = (clip_polygon(&[a, b, c], a, &mut cut), clip_line([b, c], a));
 }
 
+/// Thin triangles whose weights do not fit are not drawn by them; random ones are hardly ever of this kind.
+#[test]
+fn thin_triangles_of_packed_colors() {
+    for (points, reds) in [
+        (
+            [(11350, 687_885), (1_022_687, -557_084), (487_691, 101_503)],
+            [131_064, 285_661, 816_644],
+        ),
+        (
+            [(0, 0), (1_000_000, 999_999), (500_000, 500_000)],
+            [0x8000, 0x1f_8000, 0x8000],
+        ),
+    ] {
+        let corner = |(i, (x, y)): (usize, (i32, i32))| Corner {
+            position: Position::new(SubPx::from_bits(x), SubPx::from_bits(y)).unwrap(),
+            depth: FineDepth::ZERO,
+            varying: Color565([reds[i], 0x8000, 0x8000]),
+        };
+        let corners: Vec<_> = points.into_iter().enumerate().map(corner).collect();
+        let window = Window::new(0, 0, 64, 64);
+        draw_corners([corners[0], corners[1], corners[2]], window, window, 64);
+    }
+}
+
+/// Nothing is nothing.
+#[test]
+fn polygons_without_corners() {
+    let window = Window::new(0, 0, 64, 64);
+    fixel::span::scan::<i32>(&[(0, 0); 0], true, window, |_| panic!("nothing is covered"));
+    fixel::span::scan::<i64>(&[(0, 0); 0], false, window, |_| panic!("nothing is covered"));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
@@ -490,6 +522,8 @@ proptest! {
         let nonsense = |i: usize| Perspective { over_w: over_w[i], inverse: inverses[i], values: values[i] };
         draw_corners(corners(positions, depths, nonsense), window, depth_window, length);
         draw_corners(corners(positions, depths, |i| Linear32(values[i])), window, depth_window, length);
+        let colors = |i: usize| Color565([values[i][0], values[i][1], inverses[i]]);
+        draw_corners(corners(positions, depths, colors), window, depth_window, length);
         for of in [&honest as &dyn Fn(usize) -> Perspective<2>, &nonsense] {
             draw_corners(corners(positions, depths, |i| Perspective32(of(i))), window, depth_window, length);
             let spans = |i: usize| PerspectiveSpans::<2, 128>(of(i));
@@ -525,6 +559,12 @@ proptest! {
         for corner in corners {
             prop_assert_eq!(cache.get(corner, |corner| corner), corner);
         }
+    }
+
+    #[test]
+    fn any_line_in_any_window(from in any::<(i16, i16)>(), to in any::<(i16, i16)>(), window in window()) {
+        let mut color = Anywhere { window, row: vec![0; 50] };
+        draw::line(&mut color, from, to, &look());
     }
 
     #[test]

@@ -147,6 +147,9 @@ fn units<P: Precision>(name: &str, judged: &mut Judged) {
             check([other, extreme, 0]);
         }
     }
+    // Among the worst of `Table`, found by climbing.
+    check([-1_074_102_273, 132_612_094, -189_169_663]);
+    check([170_950_655, 1_074_233_344, 152_272_895]);
     judged.judge(&format!("{name}::unit"), worst, P::UNIT_ERROR);
 }
 

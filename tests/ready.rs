@@ -196,6 +196,25 @@ fn turned<T: Word>(angle: i32, away: i32) -> Matrix<T> {
     Matrix::translation(Block::from_integers([0, 0, -away])).product(&turn)
 }
 
+/// Where the short way is off by as much as it can be, next to the border between two subpixels: found among all divisors.
+#[test]
+fn ratios_that_are_as_far_off_as_any() {
+    let view = View::<i32, i32, 0> {
+        projection: Matrix::identity(),
+        planes: Planes::default(),
+        viewport: Viewport::new(-4096, -4096, 8191, 8191).unwrap(),
+        depth_range: DepthRange::MinusOneToOne,
+        behind: Behind::Cut,
+        cull: Cull::Nothing,
+    };
+    for (w, v) in [(1_073_737_746, 1_069_789_247), (1_073_737_763, 1_069_772_878)] {
+        let positions = [[v, 0, 0, w], [0, 0, 0, w], [0, v, 0, w]].map(|p| Block::new(p, 0));
+        let vertices = positions.map(|position| Vertex { position, carried: () });
+        let ready = positions.map(|position| view.clip_vertex(position, ()));
+        assert_eq!(compare_ready::<i32, i32, ()>(&view, vertices, ready), Way::Whole);
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 

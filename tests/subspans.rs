@@ -140,6 +140,22 @@ fn a_row_begins_with_the_cut_that_it_rises_from() {
     assert!(!errors.is_empty() && errors.iter().all(|(error, stated)| *error <= stated + 256.0));
 }
 
+/// A row that reaches from a triangle's first corner to both sides is wider than 1024 px: found as a case.
+#[test]
+fn rows_may_be_twice_as_wide_as_they_reach_from_the_first_corner() {
+    let corners = [(261_909, 21), (4749, 1550), (516_350, 1774)];
+    let window = Window::new(0, 0, 2048, 8);
+    let (texels, inverses) = ([1862, 1_622_739, -4_193_989], [1_073_741_824, 943_766_762, 943_718_477]);
+    let case = Case { corners, window };
+    for (errors, bound) in [
+        (errors::<32>(&case, texels, inverses), 8192.0),
+        (errors::<512>(&case, texels, inverses), 131_072.0),
+    ] {
+        assert!(errors.len() > 4000);
+        assert!(errors.into_iter().all(|(error, own)| error <= own + bound));
+    }
+}
+
 /// What a row rises by is found from a place beyond its end, where value/w can have left its word: found as random cases.
 #[test]
 fn there_is_room_beyond_the_ends_of_rows() {

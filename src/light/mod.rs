@@ -376,7 +376,8 @@ impl<F: Finish, P: Precision> Sum<'_, F, P> {
 pub trait Finish {
     /// Whether there is a highlight at all; without one there is no code for it.
     const SHINES: bool;
-    /// Share of the light, best 0…1, for n·h in 0…1, both in units of 2^-30. The cosine may pass 1 by a few units.
+    /// Share of the light, best 0…1, for n·h in 0…1, both in units of 2^-30. The cosine may pass 1
+    /// by twice the [`UNIT_ERROR`](Precision::UNIT_ERROR).
     fn strength(&self, cosine: i32) -> i32;
     /// The same at the precision of the lights; [`strength`](Self::strength) itself unless there is a cheaper way.
     #[inline(always)]

@@ -19,7 +19,7 @@
 //! and eye being rounded to their unit: from d units away the direction is then within 1/d.
 //!
 //! **Error** against exact arithmetic, from the numbers given: of n·l at most 6·2^-30, of k = n·h at most
-//! (5 + 6/|unit(e − v) + unit(L − v)|)·2^-30 and never over 1; of k^x what that makes of it and 3·2^-30 of its own; each
+//! (5 + 6/|unit(e − v) + unit(L − v)|)·2^-30 and over 1 by no more; of k^x what that makes of it and 3·2^-30 of its own; each
 //! times the light's |c|, and 2^-31 for each light; D's error times |d|, S's times |s|; and one unit of the result
 //! (`tests/phong.rs`; the directions' own errors are those of `docs/functions.md`). A hundred
 //! lights that add up to full on a matte surface are within 2^-25 of full.

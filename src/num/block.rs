@@ -236,7 +236,7 @@ impl<T: Word> Scaled<T> {
     #[inline]
     pub fn to_fixed(self, fraction_bits: u32) -> i64 {
         let [m] = self.mantissas;
-        let shift = self.exponent.saturating_add(fraction_bits as i32);
+        let shift = self.exponent.saturating_add_unsigned(fraction_bits);
         if shift >= 0 {
             let room = (m.to_i64().unsigned_abs().leading_zeros() as i32) - 1;
             if shift <= room || m == T::ZERO {

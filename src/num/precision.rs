@@ -42,7 +42,7 @@ pub trait Precision {
     fn unit_wide(vector: [i64; 3]) -> Option<[i32; 3]> {
         Self::unit(cut(vector))
     }
-    /// The dot product in units of 2^-30 of two unit vectors, whose components are in units of 2^-30 and at most 2^30 + 8.
+    /// The dot product in units of 2^-30 of two unit vectors, as [`unit`](Self::unit) gives them, in units of 2^-30.
     fn dot(a: [i32; 3], b: [i32; 3]) -> i32;
     /// `base`^`exponent`: base and result in 0…2^30 in units of 2^-30, the exponent in units of 2^-16.
     fn power(base: i32, exponent: u32) -> i32;

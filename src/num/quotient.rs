@@ -21,8 +21,8 @@ pub struct Divisor {
     reciprocal: i32,
 }
 
-/// Units of the reciprocal that it can be off: 2 below the floor, and the fraction.
-const ERROR: i64 = 3;
+/// Units of the reciprocal that it can be off: 3.461 at worst.
+const ERROR: i64 = 4;
 
 /// Bits of a quotient that [`Divisor::floor_small`] takes.
 const SMALL: u32 = 26;

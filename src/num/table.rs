@@ -21,7 +21,7 @@ pub enum Table {}
 impl Precision for Table {
     const RECIPROCAL_ERROR: u32 = 1 << 18;
     const ROOT_ERROR: u32 = 1 << 18;
-    const UNIT_ERROR: u32 = 72_000;
+    const UNIT_ERROR: u32 = 80_000;
     const DOT_ERROR: u32 = 1 << 16;
     const POWER_ERROR: u32 = 5 << 18;
     const LONG: bool = false;

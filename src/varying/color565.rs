@@ -78,8 +78,8 @@ impl Slopes<Color565> for Color565Slopes {
         let ([ra, ga, ba], [rb, gb, bb], [rc, gc, bc]) = (a, b, c);
         // At the anchor, where they fit their halves.
         let (red, blue) = (weights.anchored([ra, rb, rc]), weights.anchored([ba, bb, bc]));
-        // To the nearest 2^-11: over 1024 rows and columns a quarter of a level.
-        let both = |red: i32, blue: i32| pair((red + 16) >> 5, (blue + 16) >> 5);
+        // To the nearest 2^-11: over 1024 rows and columns a quarter of a level. Wrapping: of weights that are none, anything.
+        let both = |red: i32, blue: i32| pair(red.wrapping_add(16) >> 5, blue.wrapping_add(16) >> 5);
         Some(Color565Slopes {
             pair: weights.at_origin(Slope {
                 value: both(red.value, blue.value),

@@ -15,9 +15,10 @@ use crate::span::Span;
 /// they are anything.
 ///
 /// **Error**, with ρ the largest 1/w of the polygon over that of the pixel: 2^-15·(1.5·ρ + 1) of the largest value, and ρ·2100
-/// units where the whole reach of [slopes](mod@crate::slope) is used, ρ·4 for each row and column of smaller triangles
-/// (`tests/narrow.rs`). So with values in 2^-16 texel, triangles of up to 100 rows and columns, textures of 64 texels and
-/// ρ = 3 it is below 1/32 texel.
+/// units where the whole reach of [slopes](mod@crate::slope) is used, ρ·4·2^`up` for each row and column of smaller triangles: `up`
+/// is 0 where they are 4 px high in every direction, one more for each halving of that, and 5 below 16 columns and rows
+/// (`tests/narrow.rs`). So with values in 2^-16 texel, triangles of 16 to 100 rows and columns that are 4 px high in every
+/// direction, textures of 64 texels and ρ = 3 it is below 1/32 texel.
 ///
 /// ```
 /// use fixel::varying::{Perspective, Perspective32};
