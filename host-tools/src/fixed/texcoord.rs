@@ -2,8 +2,43 @@
 
 use fixel::num::{Block, Scaled};
 
-/// How many whole textures may be taken off coordinates without changing what they pick.
-pub type Periods = fn(Block<i64, 3>) -> i64;
+/// How a texel is found from a coordinate in texels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rounding {
+    /// The floor.
+    Down,
+    /// What is behind the point is cut off.
+    TowardsZero,
+}
+
+impl Rounding {
+    /// How many whole textures may be taken off coordinates without changing what they pick; none where next to a pole they
+    /// are mixed with weights of both signs.
+    fn periods(self, coordinates: Block<i64, 3>, pole: bool) -> i64 {
+        match self {
+            Rounding::Down => middle(coordinates),
+            Rounding::TowardsZero if pole => 0,
+            Rounding::TowardsZero => towards_zero(coordinates),
+        }
+    }
+
+    /// What is added, in texels of 2^`fraction_bits`: away from where it is cut off to.
+    fn nudge(self, coordinates: Block<i64, 3>, fraction_bits: i32) -> i32 {
+        let nudge = nudge(fraction_bits);
+        if self == Rounding::TowardsZero && ends(coordinates).1 < 0 {
+            -nudge
+        } else {
+            nudge
+        }
+    }
+}
+
+/// 2^-12 texel: so a coordinate that lies on a border of texels, as with pictures enlarged by a whole number, picks the texel that
+/// exact arithmetic does, though it is interpolated to a few units of less than 2^-16 texel. Far below the 2^-8 texel that a
+/// difference is explained by.
+pub fn nudge(fraction_bits: i32) -> i32 {
+    1 << fraction_bits >> 12
+}
 
 /// Corners' texture coordinates in texels, and the number of fraction bits: as many as fit, at most `most_bits`, less the headroom. A whole number of textures,
 /// common to the corners, is taken off first.
@@ -15,7 +50,7 @@ pub fn texels(
     size: [u16; 2],
     headroom: u32,
     most_bits: i32,
-    periods: Periods,
+    rounding: Rounding,
 ) -> Result<([[i32; 2]; 3], u32), String> {
     let [[sa, ta], [sb, tb], [sc, tc]] = corners;
     let axes = [
@@ -23,7 +58,7 @@ pub fn texels(
         (Block::gather([ta, tb, tc]), size[1]),
     ];
     let [s, t] = axes.map(|(coordinates, size)| {
-        let [periods] = Scaled::new([periods(coordinates)], 0).split();
+        let [periods] = Scaled::new([rounding.periods(coordinates, headroom > 0)], 0).split();
         let near = coordinates.minus(Block::gather([periods; 3]));
         near.times(Scaled::from_integer(size.into()))
     });
@@ -34,9 +69,16 @@ pub fn texels(
         return Err("texture coordinates of one triangle that are more than 2^31 texels apart".into());
     }
     let fraction_bits = (fraction_bits - headroom as i32).max(0).min(most_bits);
-    let [[sa, sb, sc], [ta, tb, tc]] = [s, t].map(|axis| axis.split().map(|c| nearest(c, fraction_bits)));
+    let [[sa, sb, sc], [ta, tb, tc]] = [s, t].map(|axis| {
+        let nudge = rounding.nudge(axis, fraction_bits);
+        axis.split()
+            .map(|c| (nearest(c, fraction_bits) + nudge).clamp(-MOST, MOST))
+    });
     Ok(([[sa, ta], [sb, tb], [sc, tc]], fraction_bits as u32))
 }
+
+/// The largest coordinate.
+const MOST: i32 = 1 << 30;
 
 /// The most fraction bits that there are.
 pub const FINE: i32 = 30;
@@ -44,7 +86,7 @@ pub const FINE: i32 = 30;
 pub const IN_SPANS: i32 = 16;
 
 /// The whole number that is nearest to the middle between the least and the largest: where rounding is the same everywhere.
-pub fn middle(coordinates: Block<i64, 3>) -> i64 {
+fn middle(coordinates: Block<i64, 3>) -> i64 {
     let (least, most) = ends(coordinates);
     let middle = Scaled::new([(least >> 1) + (most >> 1)], coordinates.exponent());
     nearest_wide(middle, 0)
@@ -52,7 +94,7 @@ pub fn middle(coordinates: Block<i64, 3>) -> i64 {
 
 /// The whole number that takes the coordinates nearest to 0 without taking any across it or, from below, nearer than one texture:
 /// where rounding is towards 0.
-pub fn towards_zero(coordinates: Block<i64, 3>) -> i64 {
+fn towards_zero(coordinates: Block<i64, 3>) -> i64 {
     let (least, most) = ends(coordinates);
     let whole = |mantissa: i64| Scaled::new([mantissa], coordinates.exponent()).to_fixed(0);
     if least >= 0 {
@@ -93,9 +135,16 @@ mod tests {
 
     #[test]
     fn whole_textures_are_taken_off() {
-        let (near, bits) = texels(corners([0.0, 1.0, 0.5], [0.0, 0.25, 1.0]), [8, 5], 0, FINE, middle).unwrap();
+        let (near, bits) = texels(
+            corners([0.0, 1.0, 0.5], [0.0, 0.25, 1.0]),
+            [8, 5],
+            0,
+            FINE,
+            Rounding::Down,
+        )
+        .unwrap();
         let far = corners([1e6, 1e6 + 1.0, 1e6 + 0.5], [-7.0, -6.75, -6.0]);
-        let (far, same) = texels(far, [8, 5], 0, FINE, middle).unwrap();
+        let (far, same) = texels(far, [8, 5], 0, FINE, Rounding::Down).unwrap();
         // 8 texels are 2^61 · 2^-58: taken for less than 2^4, they get 26 bits of 30.
         assert_eq!((bits, same), (26, 26));
         for (near, far) in near.into_iter().zip(far) {
@@ -122,7 +171,7 @@ mod tests {
 
     #[test]
     fn coordinates_that_do_not_fit_are_refused() {
-        assert!(texels(corners([0.0, 1e12, 0.0], [0.0; 3]), [8, 8], 0, FINE, middle).is_err());
-        assert!(texels(corners([1e300; 3], [0.0; 3]), [8, 8], 0, FINE, middle).is_err());
+        assert!(texels(corners([0.0, 1e12, 0.0], [0.0; 3]), [8, 8], 0, FINE, Rounding::Down).is_err());
+        assert!(texels(corners([1e300; 3], [0.0; 3]), [8, 8], 0, FINE, Rounding::Down).is_err());
     }
 }

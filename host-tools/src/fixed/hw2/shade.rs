@@ -194,7 +194,7 @@ fn sampler<'t>(
         [texture.width(), texture.height()],
         headroom,
         most_bits,
-        texcoord::middle,
+        texcoord::Rounding::Down,
     )?;
     Ok((st, Sampler::new(texture, fraction_bits, sampling), fraction_bits))
 }

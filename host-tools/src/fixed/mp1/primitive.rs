@@ -65,7 +65,8 @@ impl<W: Word> Brush<'_, W> {
                 let longer = u32::from(texture.width().max(texture.height()));
                 let fraction_bits = longer.leading_zeros() - 2;
                 let paint = self.texels(canvas, picture, texture, fraction_bits);
-                let far = [texture.width(), texture.height()].map(|side| i32::from(side) << fraction_bits);
+                let nudge = texcoord::nudge(fraction_bits as i32);
+                let far = [texture.width(), texture.height()].map(|side| (i32::from(side) << fraction_bits) + nudge);
                 let size = units::size(*size, self.switches.fsaa)?;
                 canvas.draw(&Billboard(self, vertex, size, far, Program::new(paint, number)));
             }
@@ -130,8 +131,8 @@ impl<W: Word> Brush<'_, W> {
             dials::Perspective::Spans => texcoord::IN_SPANS,
             _ => texcoord::FINE,
         };
-        let periods = if headroom > 0 { |_| 0 } else { texcoord::towards_zero };
-        let (st, fraction_bits) = texcoord::texels(coordinates, size, headroom, most_bits, periods)?;
+        let rounding = texcoord::Rounding::TowardsZero;
+        let (st, fraction_bits) = texcoord::texels(coordinates, size, headroom, most_bits, rounding)?;
         let texels = self.texels(canvas, picture, texture, fraction_bits);
         if self.switches.decals {
             let values = std::array::from_fn(|i| {
