@@ -35,6 +35,7 @@ pub struct Mesh {
     normals: Option<Vec<[i16; 3]>>,
     convex: bool,
     unseen: usize,
+    compact: bool,
 }
 
 /// A mesh as Rust.
@@ -46,6 +47,8 @@ pub struct EmittedMesh {
     pub lines: Vec<String>,
     /// Bytes of its tables.
     pub data: usize,
+    /// Bytes of code on a Cortex-M4 at opt-level 3, with what makes view and light: an estimate.
+    pub code: usize,
     /// Whether it is drawn with a depth buffer.
     pub depth: bool,
     /// A frame of it, and the instructions of a Cortex-M4 that this is estimated to take. `None` where the picture is too
@@ -107,7 +110,13 @@ impl Mesh {
             normals: (shading == Shading::Flat).then_some(normals),
             convex,
             unseen,
+            compact: false,
         })
+    }
+
+    /// Drawn by less code and more instructions, as [`Compact`](fixel::fragment::Compact) has it.
+    pub fn compact(self) -> Self {
+        Mesh { compact: true, ..self }
     }
 
     /// As Rust, for a picture of this size. `origin` says in the file's first lines where it came from.
@@ -151,6 +160,7 @@ impl Mesh {
             text,
             lines,
             data: self.data(),
+            code: self.code_size(),
             depth: !self.convex,
             frame,
         }
@@ -160,6 +170,21 @@ impl Mesh {
     fn data(&self) -> usize {
         let corners = self.corners.len();
         6 * (corners + self.normals.as_ref().map_or(corners, Vec::len) + self.triangles.len())
+    }
+
+    /// Rounded from images of one mesh each, less one of none; `cargo xtask emitted` measures them again.
+    fn code_size(&self) -> usize {
+        let flat = self.normals.is_some();
+        match (flat, self.convex, self.compact) {
+            (true, true, false) => 1,
+            (true, true, true) => 1,
+            (true, false, false) => 1,
+            (true, false, true) => 1,
+            (false, true, false) => 1,
+            (false, true, true) => 1,
+            (false, false, false) => 1,
+            (false, false, true) => 1,
+        }
     }
 
     fn lines(&self, width: usize, height: usize) -> Vec<String> {
@@ -184,7 +209,12 @@ impl Mesh {
         if self.unseen > 0 {
             lines.push(format!("left out: {} triangles without area", self.unseen));
         }
-        lines.push(format!("flash: {} bytes of data, and the core's code", self.data()));
+        lines.push(format!(
+            "flash: {} bytes of data, about {} of code{} (Cortex-M4, opt-level 3)",
+            self.data(),
+            self.code_size(),
+            if self.compact { ", compact," } else { "" }
+        ));
         let vertex = if flat {
             size_of::<ScreenVertex<i32, ()>>()
         } else {
@@ -207,7 +237,12 @@ impl Mesh {
         let mut code = String::from("use fixel::depth::");
         code += if self.convex { "NoDepth" } else { "Depth" };
         code += ";\nuse fixel::draw;\nuse fixel::fragment::";
-        code += if flat { "Flat565" } else { "Gouraud565" };
+        let program = if flat { "Flat565" } else { "Gouraud565" };
+        code += &if self.compact {
+            format!("{{Compact, {program}}}")
+        } else {
+            program.to_owned()
+        };
         code +=
             ";\nuse fixel::light::Sunlight;\nuse fixel::target::Target;\nuse fixel::view::{ScreenVertex, View};\n\n";
         let carried = if flat { "()" } else { "[i32; 3]" };
@@ -237,6 +272,13 @@ pub fn draw<C{generic}>(
             bound = if self.convex { "" } else { "    D: Depth,\n" },
         );
         let depth = if self.convex { "&mut NoDepth" } else { "depth" };
+        let drawn = |program: &str| {
+            if self.compact {
+                format!("Compact({program})")
+            } else {
+                program.to_owned()
+            }
+        };
         if flat {
             let _ = write!(
                 code,
@@ -245,12 +287,13 @@ pub fn draw<C{generic}>(
     }}
     for (triangle, normal) in TRIANGLES.iter().zip(&NORMALS) {{
         let [red, green, blue] = light.shade(*normal).map(|channel| channel >> 16);
-        let pixel = Flat565::new((red << 11 | green << 5 | blue) as u16);
+        let pixel = {};
         draw::indexed(view, color, {depth}, vertices, [*triangle], &pixel);
     }}
 }}
 
-"
+",
+                drawn("Flat565::new((red << 11 | green << 5 | blue) as u16)")
             );
         } else {
             let _ = write!(
@@ -260,10 +303,11 @@ pub fn draw<C{generic}>(
         *vertex = view.stored_vertex(*position, light.shade(*normal));
     }}
     let triangles = TRIANGLES.iter().copied();
-    draw::indexed(view, color, {depth}, vertices, triangles, &Gouraud565);
+    draw::indexed(view, color, {depth}, vertices, triangles, &{});
 }}
 
-"
+",
+                drawn("Gouraud565")
             );
         }
         code

@@ -83,7 +83,7 @@ pub fn run(scenes: Vec<PathBuf>, size: &str) -> Result<(), Failure> {
         };
         let bytes: Vec<_> = frame.pixels.iter().flat_map(|pixel| pixel.to_le_bytes()).collect();
         let line = Checked::new(find(&outcomes, name), crc32(&bytes), *estimate);
-        line.print(name, mesh.data as u64, 0, mesh.depth);
+        line.print(name, mesh.data as u64, mesh.code as u64, mesh.depth);
         line.complain(name, &mut off, &mut far);
     }
     println!(
@@ -96,7 +96,7 @@ pub fn run(scenes: Vec<PathBuf>, size: &str) -> Result<(), Failure> {
     );
     off.extend(far);
     if are_all {
-        off.extend(flash::check(&BOARD, &toolchain)?);
+        off.extend(flash::check(&BOARD, &toolchain, meshes)?);
     }
     if off.is_empty() {
         Ok(())
@@ -112,7 +112,7 @@ fn draw(toolchain: &Toolchain, scenes: &[(String, Emitted)], meshes: &[ShownMesh
     Outcome::parse_all(&emulator::run(&BOARD, &built)?)
 }
 
-/// The project's mesh, and one that is convex, in both shadings.
+/// The project's mesh, and one that is convex, in both shadings, each compact too.
 fn meshes(size: &str) -> Result<Vec<ShownMesh>, Failure> {
     let size: Size = size.parse().map_err(Failure::Usage)?;
     let sides = (size.width() as u16, size.height() as u16);
@@ -123,8 +123,10 @@ fn meshes(size: &str) -> Result<Vec<ShownMesh>, Failure> {
         for shading in [Shading::Flat, Shading::Gouraud] {
             let trouble = |fault| Failure::trouble(name, fault);
             let mesh = Mesh::new(&obj::parse(text, size).map_err(trouble)?, shading).map_err(trouble)?;
-            let emitted = mesh.emit("cargo xtask emitted", (size.width(), size.height()));
-            meshes.push((format!("{name}_{shading:?}").to_lowercase(), sides, emitted));
+            for (mesh, kind) in [(mesh.clone(), ""), (mesh.compact(), "_compact")] {
+                let emitted = mesh.emit("cargo xtask emitted", (size.width(), size.height()));
+                meshes.push((format!("{name}_{shading:?}{kind}").to_lowercase(), sides, emitted));
+            }
         }
     }
     Ok(meshes)

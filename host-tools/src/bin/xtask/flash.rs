@@ -1,7 +1,8 @@
-//! What emitted scenes take in flash, each in an image of its own, beside what was estimated.
+//! What emitted scenes and meshes take in flash, each in an image of its own, beside what was estimated.
 
 use std::fs;
 
+use fixel_host::emit::harness::ShownMesh;
 use fixel_host::emit::{Emitted, harness};
 
 use crate::board::Board;
@@ -30,20 +31,12 @@ fn is_near(bytes: u64, estimate: u64) -> bool {
 }
 
 /// Builds, prints and compares; what is too far off.
-pub fn check(board: &Board, toolchain: &Toolchain) -> Result<Vec<String>, Failure> {
-    let none = code_size(board, toolchain, nothing()?)?;
+pub fn check(board: &Board, toolchain: &Toolchain, meshes: Vec<ShownMesh>) -> Result<Vec<String>, Failure> {
+    let size = |scenes: &[_], meshes: &[_]| code_size(board, toolchain, scenes, meshes);
+    let none = size(&[("nothing".to_owned(), nothing()?)], &[])?;
     let mut far = Vec::new();
     println!("{:<32}{:>10}{:>12}{:>7}", "flash", "bytes", "estimated", "ratio");
-    for (name, words) in ALONE {
-        let scene = emitted(&image::root().join("tests/scenes").join(name), words)?;
-        let estimate = scene.requirements.data + scene.requirements.code;
-        let bytes = code_size(board, toolchain, scene)?.saturating_sub(none);
-        let title = [name]
-            .iter()
-            .chain(words.iter().skip(2))
-            .copied()
-            .collect::<Vec<_>>()
-            .join(" ");
+    let mut compare = |title: &str, bytes: u64, estimate: u64| {
         println!(
             "{title:<32}{bytes:>10}{estimate:>12}{:>7.2}",
             estimate as f64 / bytes as f64
@@ -53,6 +46,18 @@ pub fn check(board: &Board, toolchain: &Toolchain) -> Result<Vec<String>, Failur
                 "{title}: {bytes} bytes of flash, estimated {estimate}: more than a quarter off"
             ));
         }
+    };
+    for (name, words) in ALONE {
+        let scene = emitted(&image::root().join("tests/scenes").join(name), words)?;
+        let estimate = scene.requirements.data + scene.requirements.code;
+        let bytes = size(&[("scene".to_owned(), scene)], &[])?.saturating_sub(none);
+        let title: Vec<_> = [name].iter().chain(words.iter().skip(2)).copied().collect();
+        compare(&title.join(" "), bytes, estimate);
+    }
+    for mesh in meshes {
+        let (title, estimate) = (mesh.0.clone(), (mesh.2.data + mesh.2.code) as u64);
+        let bytes = size(&[], &[mesh])?.saturating_sub(none);
+        compare(&title, bytes, estimate);
     }
     Ok(far)
 }
@@ -65,9 +70,14 @@ fn nothing() -> Result<Emitted, Failure> {
     emitted(&file, &[])
 }
 
-/// Bytes in flash of an image that draws this scene.
-fn code_size(board: &Board, toolchain: &Toolchain, scene: Emitted) -> Result<u64, Failure> {
-    let text = harness::file(&[("scene".to_owned(), scene)]) + &harness::meshes(&[]);
+/// Bytes in flash of an image that draws these.
+fn code_size(
+    board: &Board,
+    toolchain: &Toolchain,
+    scenes: &[(String, Emitted)],
+    meshes: &[ShownMesh],
+) -> Result<u64, Failure> {
+    let text = harness::file(scenes) + &harness::meshes(meshes);
     let built = image::build(board, toolchain, image::EMITTED, text.as_bytes())?;
     let bytes = fs::read(&built).map_err(|e| Failure::trouble(built.display(), e))?;
     let elf = Elf::parse(&bytes).ok_or_else(|| Failure::Trouble(format!("{}: not an image", built.display())))?;

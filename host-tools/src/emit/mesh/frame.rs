@@ -5,13 +5,13 @@ use std::cell::Cell;
 use fixel::depth::FAR;
 use fixel::draw;
 use fixel::error::Error;
-use fixel::fragment::{Flat565, Fragment, Gouraud565};
+use fixel::fragment::{Compact, Flat565, Fragment, Gouraud565};
 use fixel::target::Buffer;
 use fixel::view::{Carried, View};
 use fixel::window::Window;
 use fixel_workloads::shown;
 
-use super::Mesh;
+use super::{Corner, Mesh};
 use crate::emit::drawing::Nearer;
 use crate::emit::replay::Chosen;
 
@@ -86,14 +86,20 @@ impl Frame {
                     let [red, green, blue] = sun.shade(normal).map(|channel| channel >> 16);
                     Flat565::new((red << 11 | green << 5 | blue) as u16)
                 };
-                frame.draw(mesh, &view, window, &corners, pixel)?;
+                if mesh.compact {
+                    frame.draw(mesh, &view, window, &corners, |triangle| Compact(pixel(triangle)))?;
+                } else {
+                    frame.draw(mesh, &view, window, &corners, pixel)?;
+                }
             }
             None => {
-                let lit = mesh
-                    .corners
-                    .iter()
-                    .map(|(position, normal)| (*position, sun.shade(*normal)));
-                frame.draw(mesh, &view, window, &lit.collect::<Vec<_>>(), |_| Gouraud565)?;
+                let lit = |(position, normal): &Corner| (*position, sun.shade(*normal));
+                let corners: Vec<_> = mesh.corners.iter().map(lit).collect();
+                if mesh.compact {
+                    frame.draw(mesh, &view, window, &corners, |_| Compact(Gouraud565))?;
+                } else {
+                    frame.draw(mesh, &view, window, &corners, |_| Gouraud565)?;
+                }
             }
         }
         Ok(frame)
