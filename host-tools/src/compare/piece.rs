@@ -142,6 +142,13 @@ impl<'a> Piece<'a> {
         })
     }
 
+    /// How far apart float64 may have a value here and in the reference, which walks there by adding steps, and over the triangles of
+    /// the polygon's fan: four times what one way there rounds.
+    pub fn noise<const N: usize>(&self, p: [f64; 2], of: fn(&Corner) -> [f64; N]) -> f64 {
+        let noise = self.fit.map_or(f64::INFINITY, |fit| fit.frame.noise);
+        4.0 * (self.walk + noise) * self.greatest(of) * self.ratio(p)
+    }
+
     /// The most columns of a span, those off the picture included.
     pub fn columns(&self) -> f64 {
         self.extents[0]

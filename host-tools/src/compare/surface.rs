@@ -67,7 +67,11 @@ fn look(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Option<Verdict
         return Some(seen.judged(&seen.color, true));
     };
     let coordinates = piece.values(sight.sample, |c| c.at.texcoord, None, 0.0)?;
-    let texels = Texels::new(texture, &coordinates, lowering(piece, |e| e.texcoord), f64::floor);
+    let errors = [
+        lowering(piece, |e| e.texcoord),
+        piece.noise(sight.sample, |c| c.at.texcoord),
+    ];
+    let texels = Texels::new(texture, &coordinates, errors, f64::floor);
     let candidate = |(texel, own): ([u8; 4], bool)| {
         let [r, g, b, alpha] = texel;
         let mut surface = blended([r, g, b, if material.decals { alpha } else { 255 }], &seen.color);
@@ -145,7 +149,7 @@ fn light(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Option<(Sum, 
 }
 
 impl Seen<'_> {
-    /// Judges the colour for one surface colour; `own` is whether that is the reference's texel.
+    /// Judges the colour for one surface colour; `own` is whether that is certainly the reference's texel.
     fn judged(&self, surface: &Range<3>, own: bool) -> Verdict {
         let Some((exact, core)) = &self.light else {
             return self.found(surface.moved, surface.full, own).unwrap_or(Verdict::Differs);
@@ -166,19 +170,20 @@ impl Seen<'_> {
         verdict
     }
 
-    /// *Colour* or *texel*, if the colour lies in `all`. The reference's own must too, or it chose another texel.
+    /// *Colour* or *texel*, if the colour lies in `all`. The reference's must too, or it chose another texel.
     fn found(&self, moved: [Interval; 3], all: [Interval; 3], own: bool) -> Option<Verdict> {
         if !self.fits(all) {
             return None;
         }
         let holds = |known: [f64; 3]| (all.iter().zip(known)).all(|(a, k)| a.low <= k && k <= a.high);
-        let reference_too = self.sight.known.is_none_or(holds);
+        // On a texel's border it is not known which one the reference chose, but its colour tells.
+        let reference_too = self.sight.known.map_or(own, holds);
         let beyond = moved.iter().zip(self.sight.fixed).map(|(m, level)| {
             let below = byte(m.low).saturating_sub(level);
             below.max(level.saturating_sub(byte(m.high)))
         });
         let beyond = beyond.max().unwrap_or(0);
-        Some(if own && reference_too {
+        Some(if reference_too {
             Verdict::Colour(Reverse(beyond))
         } else {
             Verdict::Texel

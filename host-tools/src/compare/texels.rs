@@ -15,14 +15,14 @@ pub struct Texels<'a> {
 struct Axis {
     first: i64,
     count: i64,
-    /// The reference's own, wrapped.
-    own: i64,
+    /// The reference's own, wrapped; none if its coordinate lies so near a border that it may have either.
+    own: Option<i64>,
     size: i64,
 }
 
 impl Axis {
-    /// x + ½ made whole, of the coordinates x and of the one that the reference has.
-    fn new(own: f64, coordinates: Interval, size: u32, round: fn(f64) -> f64) -> Self {
+    /// x + ½ made whole, of the coordinates x and of the one that the reference has, which is known to an interval too.
+    fn new(own: Interval, coordinates: Interval, size: u32, round: fn(f64) -> f64) -> Self {
         let whole = |s: f64| round(s * f64::from(size) + 0.5);
         let (first, last) = (whole(coordinates.low), whole(coordinates.high));
         let size = i64::from(size);
@@ -31,7 +31,7 @@ impl Axis {
         Self {
             first: if some { first.rem_euclid(size as f64) as i64 } else { 0 },
             count: if some { many as i64 } else { size },
-            own: whole(own).rem_euclid(size as f64) as i64,
+            own: (whole(own.low) == whole(own.high)).then(|| whole(own.low).rem_euclid(size as f64) as i64),
             size,
         }
     }
@@ -43,25 +43,26 @@ impl Axis {
 
 impl<'a> Texels<'a> {
     /// Those that the coordinates s and t may pick, with an error of the larger of both in units of the texture before they are
-    /// interpolated: the core has them in texels, in a common unit. A coordinate x picks the texel `round`(x + ½).
-    pub fn new(texture: &'a Picture, coordinates: &Range<2>, error: f64, round: fn(f64) -> f64) -> Self {
+    /// interpolated: the core has them in texels, in a common unit. The reference's own are `noise` from the ranges' values at the
+    /// most. A coordinate x picks the texel `round`(x + ½).
+    pub fn new(texture: &'a Picture, coordinates: &Range<2>, [error, noise]: [f64; 2], round: fn(f64) -> f64) -> Self {
         let longer = f64::from(texture.width.max(texture.height));
         let axis = |i: usize, size: u32| {
             let may_be = coordinates.full[i].widened(error * longer / f64::from(size));
-            Axis::new(coordinates.value[i], may_be, size, round)
+            Axis::new(Interval::around(coordinates.value[i], noise), may_be, size, round)
         };
         let axes = [axis(0, texture.width), axis(1, texture.height)];
         Self { texture, axes }
     }
 
-    /// Every one with its colour, and whether it is the one that the reference picks.
+    /// Every one with its colour, and whether it is certainly the one that the reference picks.
     pub fn all(&self) -> impl Iterator<Item = ([u8; 4], bool)> {
         let [columns, rows] = self.axes;
         let width = self.texture.width as usize;
         let row = move |j: i64| {
             columns.indices().map(move |i| {
                 let texel = self.texture.pixels[j as usize * width + i as usize];
-                (texel, i == columns.own && j == rows.own)
+                (texel, columns.own == Some(i) && rows.own == Some(j))
             })
         };
         rows.indices().flat_map(row)

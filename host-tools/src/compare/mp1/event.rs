@@ -138,10 +138,13 @@ impl<'a> Drawn<'a> {
         // A unit of 30 bits of the texture a column.
         let columns = size.min(self.screen.size[0].max(self.screen.size[1]));
         let arithmetic = (columns + 8.0) * CARRIED;
+        // Of the centre's place on the screen, and of a few operations with it.
+        let places = Interval::of([0, 1].map(|i| self.screen.size[i] + centre.position[i].abs())).high;
+        let noise = 4.0 * f64::EPSILON * (places / size + 1.0);
         let values = Values::constant(
             centre,
             texcoord,
-            [(bound + SIZE_ROUNDING) / size, arithmetic],
+            [(bound + SIZE_ROUNDING) / size, arithmetic, noise],
             self.mark,
         );
         self.at_once(inside.coverage()?, centre, self.fragments(Some(values)))
@@ -154,7 +157,7 @@ impl<'a> Drawn<'a> {
             margin: size / 2.0 - dx.hypot(dy),
             bound,
         };
-        let values = Values::constant(centre, [0.0; 2], [0.0; 2], self.mark);
+        let values = Values::constant(centre, [0.0; 2], [0.0; 3], self.mark);
         self.at_once(inside.coverage()?, centre, self.fragments(Some(values)))
     }
 

@@ -10,7 +10,7 @@ use crate::compare::shape::Coverage;
 pub struct Decisions {
     /// 1/w within its bound of 0.
     pub pole: bool,
-    /// Another texel than the reference's.
+    /// Perhaps another texel than the reference's.
     pub texel: bool,
     /// Which of two depths is nearer.
     pub depth: bool,

@@ -27,9 +27,9 @@ pub struct Fragment {
 /// Which texel a fragment has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Texel {
-    /// The reference's, or there is no texture.
+    /// Certainly the reference's, or there is no texture.
     Own,
-    /// Another.
+    /// Perhaps another.
     Other,
     /// Nothing is known: 1/w is within its bound of 0.
     Pole,
@@ -64,6 +64,8 @@ pub struct Values {
     /// The core's error of the texture coordinate by rounding to units, which both of its axes share: before it is interpolated,
     /// and over w at the corners.
     texel_error: f64,
+    /// How far the reference's texture coordinate may be from `texcoord.value`.
+    texel_noise: f64,
     unit: f64,
 }
 
@@ -91,12 +93,14 @@ impl Values {
             channels: piece.values(p, channels, None, error(|e| e.color) * shares + units * mark.unit)?,
             texcoord: piece.values(p, |c| c.at.texcoord, None, error(|e| e.texcoord))?,
             texel_error: error(|e| e.texcoord) * piece.ratio(p).max(1.0),
+            texel_noise: piece.noise(p, |c| c.at.texcoord),
             unit: mark.unit,
         })
     }
 
-    /// Of something with one corner; the texture coordinate moves by `moved`, and by `arithmetic` beyond that.
-    pub fn constant(corner: &Corner, texcoord: [f64; 2], [moved, arithmetic]: [f64; 2], mark: &Mark) -> Self {
+    /// Of something with one corner; the texture coordinate moves by `moved`, by `arithmetic` beyond that, and by `noise` in the
+    /// reference.
+    pub fn constant(corner: &Corner, texcoord: [f64; 2], [moved, arithmetic, noise]: [f64; 3], mark: &Mark) -> Self {
         let by = texcoord.map(|s| Interval::around(s, moved));
         Self {
             channels: Range::constant(channels(corner), lowering(corner.at_error.color)),
@@ -106,6 +110,7 @@ impl Values {
                 full: by.map(|s| s.widened(arithmetic)),
             },
             texel_error: 0.0,
+            texel_noise: noise,
             unit: mark.unit,
         }
     }
@@ -139,6 +144,7 @@ impl Values {
             },
             texcoord: Range::constant([0.0; 2], 0.0),
             texel_error: 0.0,
+            texel_noise: 0.0,
             unit: mark.unit,
         })
     }
@@ -175,7 +181,8 @@ const FEW: usize = 12;
 
 fn textured(texture: &Picture, values: &Values, below: Option<&Fragment>) -> Vec<Fragment> {
     // Cut towards zero (formats/mp1.md section 5).
-    let texels = Texels::new(texture, &values.texcoord, values.texel_error, f64::trunc);
+    let errors = [values.texel_error, values.texel_noise];
+    let texels = Texels::new(texture, &values.texcoord, errors, f64::trunc);
     let mut all: Vec<Fragment> = Vec::new();
     for (texel, own) in texels.all() {
         let color = texel.map(|level| Interval::around(f64::from(level) / 255.0, 0.0));

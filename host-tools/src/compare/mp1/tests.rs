@@ -357,6 +357,38 @@ fn another_texel_only_within_delta_of_its_border() {
 }
 
 #[test]
+fn on_a_border_either_texel_is_explained() {
+    // Two pixels a texel: at every other one the coordinate lies on a border, to the last bits of float64, where the reference's
+    // own texel is a matter of how it walks there.
+    let side = 10;
+    let texel = |column: usize, row: usize| [20 * column as u8, 20 * row as u8, 99, 255];
+    let texels = (0..side * side).map(|i| texel(i % side, i / side)).collect();
+    let texture = Arc::new(Picture::new(10, 10, texels));
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let vertices = corners.map(|[s, t]| format!("texcoord {s} {t}\nxyzw {:?} {:?} 0 1\n", s - 0.7, t - 0.7));
+    let quad = "trit 1 2 3\ntrit 1 3 4\n";
+    let billboard = "xyzw -0.2 -0.2 0 1\nbillboard 20 5\n";
+    for marks in [quad, billboard] {
+        let text = format!("png 40 40 a.png\ntexture t.png\n{}{marks}", vertices.concat());
+        let scene = parse_with(text.as_bytes(), &mut |_| Ok(Arc::clone(&texture))).expect("a scene");
+        let reference = draw(&scene);
+        let mut drawn = 0;
+        for before in [[0, 0], [0, 1], [1, 0], [1, 1]] {
+            let mut fixed = as_fixed(&reference);
+            for (i, pixel) in fixed.pixels.iter_mut().enumerate().filter(|(_, p)| p.primitive != 0) {
+                let index = |at: usize, before: usize| (at + 1 - before - 6 + 2 * side) / 2 % side;
+                let of_axis = |at: usize, before: usize| index(at, before * (at % 2) + (at + 1) % 2);
+                pixel.rgba = texel(of_axis(i % 40, before[0]), of_axis(i / 40, before[1]));
+                drawn += 1;
+            }
+            let comparison = compare(&scene, shift(&scene), &fixed, &reference);
+            assert_eq!(comparison.unexplained, 0, "{before:?} {:?}", comparison.explained);
+        }
+        assert!(drawn > 4 * 300, "{drawn}");
+    }
+}
+
+#[test]
 fn another_texel_of_a_billboard_only_near_its_border() {
     // 4 texels on 16 px: the border between texels 1 and 2 is 6 px from the left side.
     let by = SNAP + 1.5 * SIZE_ROUNDING;
