@@ -189,10 +189,15 @@ fn mean_color(corners: &[Placed], lighting: &Lighting<'_>) -> [f64; 3] {
 }
 
 /// Whether a triangle is counter-clockwise on the screen with y up: by the sign of the determinant of x, y, w, which is that of
-/// the area on the screen where all corners have a place there. Of differences, so that small triangles do not cancel; and
-/// without a division, which corners beside the camera would not survive.
+/// the area on the screen where all corners have a place there. Of differences, so that small triangles do not cancel, from the
+/// corner nearest to the origin: from one far away the others would not differ. And without a division, which corners beside the
+/// camera would not survive.
 fn faces_camera(corners: [Vector; 3]) -> bool {
-    let [a, b, c] = corners.map(|[x, y, _, w]| [x, y, w]);
+    let mut corners = corners.map(|[x, y, _, w]| [x, y, w]);
+    let farthest = |v: [f64; 3]| v.into_iter().map(f64::abs).fold(0.0, f64::max);
+    let nearest = (0..3).min_by(|&i, &j| farthest(corners[i]).total_cmp(&farthest(corners[j])));
+    corners.rotate_left(nearest.unwrap_or(0));
+    let [a, b, c] = corners;
     let from_a = |v: [f64; 3]| [0, 1, 2].map(|i| v[i] - a[i]);
     dot(a, cross(from_a(b), from_a(c))) > 0.0
 }

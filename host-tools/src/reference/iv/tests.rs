@@ -218,3 +218,37 @@ fn numbers_that_overflow_draw_nothing() {
         }
     }
 }
+
+#[test]
+fn a_corner_far_away_does_not_turn_a_triangle() {
+    // Of whole numbers below 2^40 and two of them below 2^14, so that the determinant is exact in 128 bits.
+    let mut state = 1_u64;
+    let mut within = |bits: u32| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> (63 - bits)) as i64 - (1 << bits)
+    };
+    let (mut front, mut back) = (0, 0);
+    for far in 14..40 {
+        for _ in 0..40 {
+            let mut near = || [0; 3].map(|_| i128::from(within(13)));
+            let (b, c) = (near(), near());
+            let a = [0; 3].map(|_| i128::from(within(far)));
+            let minor = |i: usize, j: usize| b[i] * c[j] - b[j] * c[i];
+            let determinant = a[0] * minor(1, 2) + a[1] * minor(2, 0) + a[2] * minor(0, 1);
+            // What float64 rounds of products as large as these.
+            if determinant.abs() < 1 << (far + 26 - 40) {
+                continue;
+            }
+            let clip = |v: [i128; 3]| [v[0] as f64, v[1] as f64, 0.0, v[2] as f64];
+            let mut corners = [a, b, c].map(clip);
+            for _ in 0..3 {
+                assert_eq!(faces_camera(corners), determinant > 0, "{corners:?}");
+                corners.rotate_left(1);
+            }
+            if determinant > 0 { front += 1 } else { back += 1 }
+        }
+    }
+    assert!(front > 400 && back > 400, "{front} {back}");
+}
