@@ -7,7 +7,7 @@ use fixel_host::compare::{self, Class};
 use fixel_host::fixed::{FixedPicture, iv};
 use fixel_host::picture::Picture;
 use fixel_host::reference;
-use fixel_host::scene::iv::{Face, Scene, Shading};
+use fixel_host::scene::iv::{Face, Scene, Shading, parse};
 use iv_pictures::{Case, STEP, apart, cases, like_the_course, picture, scene};
 
 /// What must not be missing.
@@ -142,6 +142,41 @@ fn strips_equal_whole_frames() {
 }
 
 /// 64-bit edges give the bytes of 32-bit ones where nothing reaches the guard band.
+/// A quad before the default camera that turns away from it, and another point.
+fn quad_and(point: &str, shading: Shading) -> Scene {
+    let model = format!(
+        "PerspectiveCamera {{ position 0 0 4 }} PointLight {{ location 1 2 3 color 0.9 0.8 0.7 }}
+         Separator {{ Material {{ diffuseColor 0.7 0.5 0.3 specularColor 0.6 0.6 0.6 shininess 0.1 }}
+           Coordinate3 {{ point [ {point} -1 -1 0.3, 1 -1 -0.2, 1.1 1 0.1, -0.9 1.2 0 ] }}
+           Normal {{ vector [ 0 0 1, 0.2 0 1, 0 0.3 1, -0.2 -0.1 1 ] }}
+           IndexedFaceSet {{ coordIndex [ {}, -1 ] normalIndex [ 0, 1, 2, 3, -1 ] }} }}",
+        if point.is_empty() { "0, 1, 2, 3" } else { "1, 2, 3, 4" },
+    );
+    Scene {
+        width: 60,
+        height: 60,
+        output: "out.ppm".into(),
+        shading,
+        eyelight: false,
+        model: parse(&model).expect("a model"),
+    }
+}
+
+#[test]
+fn a_point_of_no_face_changes_nothing() {
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        let alone = drawn(&quad_and("", shading));
+        assert!(alone.pixels.iter().filter(|p| p.primitive != 0).count() > 150);
+        for point in ["1e12 -1e12 1e12,", "-3e9 0 0,"] {
+            let scene = quad_and(point, shading);
+            let fixed = drawn(&scene);
+            assert!(fixed.pixels == alone.pixels, "{shading:?} {point}");
+            let comparison = compare::iv::compare(&scene, &fixed, &reference::iv::draw(&scene));
+            assert_eq!(comparison.unexplained, 0, "{shading:?} {point}");
+        }
+    }
+}
+
 #[test]
 fn wide_edges_agree() {
     let Some(cases) = official() else { return };

@@ -57,7 +57,8 @@ impl Log<'_> {
             lights: self.scene.lights(),
             eye: self.scene.model.camera.position,
         });
-        let places = object.points.iter().map(|&point| world.point(point).0);
+        let used = object.used();
+        let places = used.iter().map(|&point| world.point(point).0);
         let extents = extents(places);
         // Places are counted from the middle, in units of 30 bits of the farthest; the lights are rounded to them.
         let unit = CARRIED * extents * 3f64.sqrt();

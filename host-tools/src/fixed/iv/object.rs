@@ -58,7 +58,8 @@ fn shaded<W: Word, S: Specular>(
     let counts = [object.points.len(), object.normals.len()];
     let mesh = Mesh::<u32, 2>::new([&points, &normals], counts).map_err(|e| e.to_string())?;
     let to_world = ToWorld::new(&object.transforms, canvas.dials.trigonometry)?;
-    let origin = to_world.place(middle(object));
+    let used = object.used();
+    let origin = to_world.place(middle(&used));
     let lights = AllLights::new(scene, origin, canvas.dials.precision)?;
     let lit = |place, normal| lights.shade(normal, place, material);
     let corner = |[point, normal]: [usize; 2]| {
@@ -94,7 +95,7 @@ fn shaded<W: Word, S: Specular>(
             });
         }
         Shading::Phong => {
-            let exponent = to_world.unit(object, origin);
+            let exponent = to_world.unit(&used, origin);
             let lit = lights.at_scale(exponent);
             let (eye, all) = lamps::seen_from(scene, origin);
             let described = Surface::of(&object.material)?.described();
@@ -239,21 +240,21 @@ impl ToWorld {
         xyz(self.points.transform(homogeneous(point)))
     }
 
-    /// The unit of places from the origin in which the object's fill 30 bits.
-    fn unit(&self, object: &Object, origin: Block<i64, 3>) -> i32 {
-        let places = object.points.iter().map(|&point| self.place(point).minus(origin));
+    /// The unit of places from the origin in which those of the points fill 30 bits.
+    fn unit(&self, points: &[[f64; 3]], origin: Block<i64, 3>) -> i32 {
+        let places = points.iter().map(|&point| self.place(point).minus(origin));
         let exponents = places.filter(|place| !place.is_zero()).map(|place| place.exponent());
         exponents.max().unwrap_or(0).saturating_add(32)
     }
 }
 
-/// A point amid the object's, before the transforms.
-pub(super) fn middle(object: &Object) -> [f64; 3] {
-    if object.points.is_empty() {
+/// A point amid others, before the transforms.
+pub(super) fn middle(points: &[[f64; 3]]) -> [f64; 3] {
+    if points.is_empty() {
         return [0.0; 3];
     }
     [0, 1, 2].map(|i| {
-        let of = object.points.iter().map(|p| p[i]);
+        let of = points.iter().map(|p| p[i]);
         let least = of.clone().fold(f64::INFINITY, f64::min);
         let most = of.fold(f64::NEG_INFINITY, f64::max);
         least + (most / 2.0 - least / 2.0)

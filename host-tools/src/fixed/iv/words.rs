@@ -34,8 +34,9 @@ pub fn words(scene: &Scene) -> Result<Vec<u16>, String> {
 }
 
 fn push_object(words: &mut Vec<u16>, scene: &Scene, object: &Object) -> Result<(), String> {
-    let middle = middle(object);
-    let size = half_size(object, middle);
+    let used = object.used();
+    let middle = middle(&used);
+    let size = half_size(&used, middle);
     let to_world = ToWorld::new(&object.transforms, Trigonometry::default())?;
     let origin = to_world.place(middle);
     let from_origin = Matrix::translation(origin.negated())
@@ -53,11 +54,8 @@ fn push_object(words: &mut Vec<u16>, scene: &Scene, object: &Object) -> Result<(
 }
 
 /// Half the length of the longest side of the box around the points; not 0.
-fn half_size(object: &Object, middle: [f64; 3]) -> f64 {
-    let away = object
-        .points
-        .iter()
-        .flat_map(|p| [0, 1, 2].map(|i| (p[i] - middle[i]).abs()));
+fn half_size(points: &[[f64; 3]], middle: [f64; 3]) -> f64 {
+    let away = (points.iter()).flat_map(|p| [0, 1, 2].map(|i| (p[i] - middle[i]).abs()));
     let size = away.fold(0.0, f64::max);
     if size > 0.0 { size } else { 1.0 }
 }

@@ -154,6 +154,18 @@ pub struct Object {
 /// `Transform`: points are scaled, then turned, then moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Transform {
+impl Object {
+    /// The points that faces refer to, each once: others are not drawn, and lie as far away as they like.
+    pub fn used(&self) -> Vec<[f64; 3]> {
+        let mut used = vec![false; self.points.len()];
+        for corner in self.faces.iter().flat_map(|face| &face.corners) {
+            used[corner.point] = true;
+        }
+        let points = self.points.iter().zip(used);
+        points.filter_map(|(&point, used)| used.then_some(point)).collect()
+    }
+}
+
     /// Moves.
     pub translation: [f64; 3],
     /// Turns.
