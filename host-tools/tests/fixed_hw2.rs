@@ -63,6 +63,36 @@ fn referenced(scene: &Scene) -> Rendered<Arc<Material>> {
     reference.finish()
 }
 
+/// A scene of our own, a command a line after `png`.
+fn own(commands: &str) -> Comparison {
+    let text = format!("png 64 64 o.png\n{commands}");
+    compared(&hw2::parse(text, Path::new(".")).unwrap_or_else(|fault| panic!("{fault:?}")))
+}
+
+#[test]
+fn a_vertex_without_a_place_in_eye_space_is_lit_from_the_eye() {
+    let triangle = "frustum -1 1 -1 1 1 10\nnormal 0 0 1\nxyz -1 -1 -2\nxyz 1 -1 -2\nxyz 0 0 1\nLIGHT\nxyzw 0 1 -1 0\ntrif 1 2 4\n";
+    for (light, has_place) in [
+        ("sunlight 0 0 1", false),
+        ("sunlight 0 0 1\nflatnormals", false),
+        ("bulb 3", true),
+        ("sunlight 0 0 1\nshininess 3", true),
+    ] {
+        let comparison = own(&triangle.replace("LIGHT", light));
+        assert!(comparison.pixels_drawn > 600, "{light}: {}", comparison.pixels_drawn);
+        assert_eq!(comparison.unexplained, 0, "{light}: {:?}", comparison.explained);
+        // Along its edges.
+        assert!(
+            comparison.coverage_differs < 30,
+            "{light}: {}",
+            comparison.coverage_differs
+        );
+        // Where the eye's place counts, nothing is known.
+        let pole = comparison.explained.pole;
+        assert!(has_place || pole == 0, "{light}: {pole}");
+    }
+}
+
 #[test]
 fn every_difference_is_explained() {
     let Some(folder) = official() else { return };

@@ -145,6 +145,10 @@ fn light(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Option<(Sum, 
         &place(Direction::within(normal.full), eye.full),
         Errors::Core,
     );
+    // A corner at infinity has no place to interpolate from.
+    if has_place(material) && !unit.is_finite() {
+        return None;
+    }
     Some((*exact.first()?, core))
 }
 

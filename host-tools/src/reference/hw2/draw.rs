@@ -90,7 +90,7 @@ impl Reference {
         }
     }
 
-    /// X, Y, Z, 1/w and attributes/w of a corner; none if w is 0 or nothing finite comes of it.
+    /// X, Y, Z, 1/w and attributes/w of a corner; none if w is 0 or its place is not finite.
     fn on_screen<const N: usize>(&self, corner: &Corner) -> Option<Point<N>> {
         let [x, y, z, w] = self.projection.matrix.apply(&corner.eye);
         let half = [self.width, self.height].map(|s| f64::from(s) / 2.0);
@@ -100,7 +100,7 @@ impl Reference {
         for (slot, value) in point[REST..].iter_mut().zip(corner.at.values()) {
             *slot = value / w;
         }
-        point.iter().all(|value| value.is_finite()).then_some(point)
+        point[..REST].iter().all(|value| value.is_finite()).then_some(point)
     }
 
     fn draw<const N: usize>(

@@ -125,7 +125,8 @@ pub fn unit_within(v: [f64; 3], error: f64) -> ([f64; 3], f64) {
     (unit_or_zero(v), bound + 2.0 * (FIXED_PRODUCT + FLOAT_PRODUCT))
 }
 
-/// xyz/w and the bound of its distance from the core's: off by E, the vector moves it by (E + E |xyz/w|) / (|w| − E).
+/// xyz/w and the bound of its distance from the core's: off by E, the vector moves it by (E + E |xyz/w|) / (|w| − E). What has no
+/// place is at the eye, as the core has it, which may have any place where float64 has none.
 pub fn divided_within([x, y, z, w]: &Vector, error: f64) -> ([f64; 3], f64) {
     let point = [x / w, y / w, z / w];
     let margin = w.abs() - error;
@@ -133,3 +134,6 @@ pub fn divided_within([x, y, z, w]: &Vector, error: f64) -> ([f64; 3], f64) {
     let rounding = FIXED_PRODUCT + FLOAT_PRODUCT;
     (point, relative * (1.0 + length(point)) + rounding * length(point))
 }
+    if !point.iter().all(|c| c.is_finite()) {
+        return ([0.0; 3], f64::INFINITY);
+    }
