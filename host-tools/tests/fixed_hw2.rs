@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use fixel::window::Window;
-use fixel_host::backend::BackEnd;
+use fixel_host::backend::{BackEnd, Surface, Vertex};
 use fixel_host::compare::{Class, Comparison, compare};
 use fixel_host::fixed::FixedPicture;
 use fixel_host::fixed::hw2::Fixed;
 use fixel_host::interpret::interpret;
+use fixel_host::picture::Picture;
 use fixel_host::png;
 use fixel_host::reference::Rendered;
 use fixel_host::reference::hw2::Reference;
@@ -90,6 +91,57 @@ fn a_vertex_without_a_place_in_eye_space_is_lit_from_the_eye() {
         // Where the eye's place counts, nothing is known.
         let pole = comparison.explained.pole;
         assert!(has_place || pole == 0, "{light}: {pole}");
+    }
+}
+
+#[test]
+fn lit_decals_are_coarser_where_w_has_both_signs() {
+    let half = Arc::new(Picture::new(1, 1, vec![[10, 20, 30, 51]]));
+    let vertex = |position, color| Vertex {
+        position,
+        color,
+        normal: None,
+        texcoord: [0.0; 2],
+    };
+    let corners = [
+        vertex([0.484, -0.805, 0.445, 1.0], [0.241, 0.840, 0.047]),
+        vertex([-0.799, -0.872, 0.194, 1.0], [0.408, 0.598, 0.863]),
+        vertex([-0.006, -0.627, -0.063, -1.0], [0.588, 0.721, 0.278]),
+    ];
+    let draw = |back_end: &mut dyn BackEnd| -> Result<(), String> {
+        back_end.decals();
+        back_end.texture(&half)?;
+        back_end.sun([-0.218, 0.086, -1.0], [1.0; 3])?;
+        back_end.triangle(1, corners, Surface::Textured)
+    };
+    let (mut fixed, mut reference) = (Fixed::new(64, 64), Reference::new(64, 64));
+    draw(&mut fixed).unwrap();
+    draw(&mut reference).unwrap();
+    let comparison = compare(&fixed.finish(), &reference.finish());
+    assert!(comparison.pixels_drawn > 100 && comparison.max_channel_error > 0);
+    assert_eq!(comparison.unexplained, 0, "{:?}", comparison.explained);
+}
+
+#[test]
+fn a_bright_control_point_makes_all_of_its_patch_coarser() {
+    for (bright, light) in [
+        ("1e6", ""),
+        ("1e7", ""),
+        ("1e8", ""),
+        ("1e6", "sunlight 0 0 1\n"),
+        ("1e7", "sunlight 0 0.5 1\nshininess 5\n"),
+    ] {
+        let comparison = own(&format!(
+            "color 1 1 1\nxyz -0.9 -0.9 0.5\nxyz 0.9 -0.9 0.5\nxyz -0.9 0.9 0.5\n\
+             color 0.2 0.5 0.8\nxyz 0.9 0.9 0.5\ncolor {bright} 0 0\nxyz 0 0 0.5\ncolor 1 1 1\n{light}\
+             rectbezg 2  1 1 2 2  1 5 2 2  3 3 4 4  3 3 4 4\n"
+        ));
+        assert!(comparison.pixels_drawn > 2000, "{bright}: {}", comparison.pixels_drawn);
+        assert_eq!(
+            comparison.unexplained, 0,
+            "{bright} {light}: {:?}",
+            comparison.explained
+        );
     }
 }
 

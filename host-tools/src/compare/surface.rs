@@ -56,7 +56,7 @@ fn look(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Option<Verdict
         sight,
         color: color(material, piece, sight, rounding)?,
         rounding,
-        unit: LIT / 255.0 * brightest(&material.lights) * piece.greatest(|c| c.color).max(1.0),
+        unit: unit(material, piece),
         light: if material.is_lit() {
             Some(light(material, piece, sight)?)
         } else {
@@ -101,8 +101,29 @@ fn lowering(piece: &Piece<'_>, of: fn(&Bounds) -> f64) -> f64 {
 
 /// What the core rounds colours to, in proportion to the largest, or to full if that is less.
 fn rounding(material: &Material, piece: &Piece<'_>) -> f64 {
-    let levels = if material.is_lit() { LIT_SURFACE } else { COLOR_LEVELS };
+    let levels = if material.is_lit() {
+        LIT_SURFACE * coarser(material, piece)
+    } else {
+        COLOR_LEVELS
+    };
     levels / 255.0 * piece.greatest(|c| c.color).max(1.0)
+}
+
+/// In how many times larger units than those of 2⁻¹⁶ levels the core carries a lit surface's colours, where w has both signs. Those
+/// without a texture are 64 times finer; one colour, and a texture's own, are always what they are.
+fn coarser(material: &Material, piece: &Piece<'_>) -> f64 {
+    match material.fill {
+        Fill::Textured(_) if material.decals => piece.headroom(),
+        Fill::Gouraud => (piece.headroom() / 64.0).max(1.0),
+        Fill::Textured(_) | Fill::Flat(_) => 1.0,
+    }
+}
+
+/// What a lit colour is rounded to: of a patch, whose unit is that of its brightest control point, at least to that.
+fn unit(material: &Material, piece: &Piece<'_>) -> f64 {
+    let full = piece.greatest(|c| c.color).max(1.0);
+    let carried = piece.greatest(|c| [c.at_error.color]);
+    brightest(&material.lights) * (LIT / 255.0 * coarser(material, piece) * full).max(carried)
 }
 
 /// The surface's colour before textures and lights.
@@ -124,6 +145,10 @@ fn light(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Option<(Sum, 
         None => piece.values(sight.sample, |c| c.at.normal, None, lowering(piece, |e| e.normal))?,
     };
     let unit = lowering(piece, |e| e.eye);
+    // A corner at infinity has no place to interpolate from.
+    if has_place(material) && !unit.is_finite() {
+        return None;
+    }
     let eye = if has_place(material) {
         piece.values(sight.sample, |c| c.at.eye, None, unit)?
     } else {
@@ -145,10 +170,6 @@ fn light(material: &Material, piece: &Piece<'_>, sight: &Sight) -> Option<(Sum, 
         &place(Direction::within(normal.full), eye.full),
         Errors::Core,
     );
-    // A corner at infinity has no place to interpolate from.
-    if has_place(material) && !unit.is_finite() {
-        return None;
-    }
     Some((*exact.first()?, core))
 }
 

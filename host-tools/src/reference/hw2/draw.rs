@@ -25,8 +25,10 @@ impl Reference {
         let material = &self.finished(&mut triangle, &placed, material);
         let w = triangle.each_ref().map(|c| self.projection.matrix.apply(&c.eye)[3]);
         let mixed = w.iter().any(|&w| w < 0.0) && w.iter().any(|&w| w > 0.0);
-        let carrying = Bounds::of_carrying(triangle.iter().map(|c| &c.at), if mixed { MIXED_HEADROOM } else { 1.0 });
+        let headroom = if mixed { MIXED_HEADROOM } else { 1.0 };
+        let carrying = Bounds::of_carrying(triangle.iter().map(|c| &c.at), headroom);
         for corner in &mut triangle {
+            corner.at_error.color *= if material.is_lit() { headroom } else { 1.0 };
             corner.at_error = corner.at_error.plus(&carrying);
         }
         let polygon = clip(&triangle, &self.planes, Side::Exact, Over::Space);

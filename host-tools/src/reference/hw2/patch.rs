@@ -14,6 +14,8 @@ pub struct Sample {
     pub color: [f64; 3],
     /// Perpendicular to the patch, of any length; none where that is 0.
     pub normal: Option<[f64; 3]>,
+    /// The largest channel of all control points.
+    pub brightest: f64,
     /// Bound of the distance of the core's position from this one.
     pub error: f64,
     /// Bound of the length of the difference of the core's normal from this one.
@@ -79,6 +81,8 @@ struct Net {
     values: [Value; 16],
     /// The length of the longest position.
     largest: f64,
+    /// The largest channel.
+    brightest: f64,
 }
 
 impl Net {
@@ -95,11 +99,13 @@ impl Net {
         let mut net = Self {
             values: [[0.0; 7]; 16],
             largest: 0.0,
+            brightest: 0.0,
         };
         for (place, vertex) in points {
             let ([x, y, z, w], [r, g, b]) = (vertex.position, vertex.color);
             net.values[place] = [x, y, z, w, r, g, b];
             net.largest = net.largest.max(size(&vertex.position));
+            net.brightest = (vertex.color.iter()).fold(net.brightest, |most, c| most.max(c.abs()));
         }
         net
     }
@@ -127,6 +133,7 @@ impl Net {
             position: [x, y, z, w],
             color: [r, g, blue],
             normal: (normal != [0.0; 3]).then_some(normal),
+            brightest: self.brightest,
             error,
             normal_error: 2.0 * error * (length(a) + length(b) + 2.0 * error) + product,
         }

@@ -5,7 +5,7 @@ use super::Reference;
 use super::patch::Sample;
 use crate::backend::Vertex;
 use crate::compare::stated::{FIXED_PRODUCT, FLOAT_PRODUCT};
-use crate::reference::attributes::{Attributes, Bounds};
+use crate::reference::attributes::{Attributes, Bounds, CARRIED};
 use crate::reference::bound::size;
 use crate::reference::clip::Corner;
 use crate::reference::material::{Fill, Material};
@@ -14,12 +14,22 @@ use crate::reference::matrix::{Vector, cross, length, unit_or_zero};
 /// What is left of a unit vector's knowledge when nothing is known of its direction: the distance of opposite ones.
 const ANY_DIRECTION: f64 = 2.0;
 
+/// What a colour of a patch counts, in units that all of the patch share: its small triangles may be dark beside its brightest
+/// control point. Half a unit for each control point's rounding and half of one for the point's, two for the quotient of
+/// interpolation and four for its steps (see [`LIT_SURFACE`]), of which the comparison counts [`UNITS`] each.
+///
+/// [`LIT_SURFACE`]: crate::compare::stated::LIT_SURFACE
+/// [`UNITS`]: crate::compare::stated::UNITS
+const PATCH_UNITS: f64 = 3.0;
+
 /// A vertex before MV, given by the scene or made of a patch.
 pub struct Given {
     position: Vector,
     color: [f64; 3],
     texcoord: [f64; 2],
     normal: Option<[f64; 3]>,
+    /// The largest channel of all control points whose unit of colours it has; 0 for a vertex of the scene, which has its triangle's.
+    brightest: f64,
     /// Bound of the distance of the core's position from this one.
     error: f64,
     /// Bound of the length of the difference of the core's normal from this one.
@@ -34,6 +44,7 @@ impl Given {
             color: vertex.color,
             texcoord: vertex.texcoord,
             normal: vertex.normal,
+            brightest: 0.0,
             error: FIXED_PRODUCT * size(&vertex.position),
             normal_error: FIXED_PRODUCT * vertex.normal.map_or(0.0, length),
         }
@@ -46,6 +57,7 @@ impl Given {
             color: sample.color,
             texcoord: [0.0; 2],
             normal: sample.normal,
+            brightest: sample.brightest,
             error: sample.error,
             normal_error: sample.normal_error,
         }
@@ -65,16 +77,19 @@ impl Reference {
     /// The vertex under MV; eye position and normal only where there is light.
     pub(super) fn placed(&self, given: &Given, material: &Material) -> Placed {
         let (eye, error) = self.model_view.apply(&given.position, given.error);
-        let color = match &material.fill {
-            Fill::Flat(color) => *color,
-            Fill::Gouraud | Fill::Textured(_) => given.color,
+        let (color, brightest) = match &material.fill {
+            Fill::Flat(color) => (*color, 0.0),
+            Fill::Gouraud | Fill::Textured(_) => (given.color, given.brightest),
         };
         let mut at = Attributes {
             color,
             texcoord: given.texcoord,
             ..Attributes::default()
         };
-        let mut at_error = Bounds::default();
+        let mut at_error = Bounds {
+            color: PATCH_UNITS * CARRIED * brightest,
+            ..Bounds::default()
+        };
         if material.is_lit() {
             (at.eye, at_error.eye) = divided_within(&eye, error);
             if let Some([x, y, z]) = given.normal {
@@ -129,11 +144,11 @@ pub fn unit_within(v: [f64; 3], error: f64) -> ([f64; 3], f64) {
 /// place is at the eye, as the core has it, which may have any place where float64 has none.
 pub fn divided_within([x, y, z, w]: &Vector, error: f64) -> ([f64; 3], f64) {
     let point = [x / w, y / w, z / w];
+    if !point.iter().all(|c| c.is_finite()) {
+        return ([0.0; 3], f64::INFINITY);
+    }
     let margin = w.abs() - error;
     let relative = if margin > 0.0 { error / margin } else { f64::INFINITY };
     let rounding = FIXED_PRODUCT + FLOAT_PRODUCT;
     (point, relative * (1.0 + length(point)) + rounding * length(point))
 }
-    if !point.iter().all(|c| c.is_finite()) {
-        return ([0.0; 3], f64::INFINITY);
-    }
