@@ -1,5 +1,7 @@
 //! The text of a mesh: points, normals, faces.
 
+use std::num::IntErrorKind;
+
 use crate::scene::Fault;
 use crate::scene::arguments::{decimal, quoted};
 use crate::scene::iv::{Corner, Face};
@@ -35,8 +37,8 @@ impl Mesh {
             .peekable();
         while let Some((line, number)) = lines.next() {
             let line = line.strip_suffix('\r').unwrap_or(line);
-            // A line that ends in a backslash goes on in the next, unless that is part of a comment.
-            let (line, goes_on) = match line.strip_suffix('\\') {
+            // A line that ends in a backslash goes on in the next, unless that is part of a comment. Blanks behind it are not seen.
+            let (line, goes_on) = match line.trim_ascii_end().strip_suffix('\\') {
                 Some(line) if !line.contains('#') => (line, lines.peek().is_some()),
                 _ => (line, false),
             };
@@ -71,11 +73,11 @@ impl Mesh {
     fn vertex(&self, word: Token<'_>) -> Result<Vertex, Fault> {
         let malformed = || fault(word, "expected a vertex as v, v/vt, v//vn or v/vt/vn");
         let mut parts = word.text.split('/');
-        let mut part = || parts.next().filter(|part| !part.is_empty()).map(|part| part.parse());
+        let mut part = || parts.next().filter(|part| !part.is_empty()).map(index);
         let (point, texture, normal) = (part(), part(), part());
-        let point: i64 = point.and_then(Result::ok).ok_or_else(malformed)?;
-        let normal: Option<i64> = normal.transpose().map_err(|_| malformed())?;
-        let _: Option<i64> = texture.transpose().map_err(|_| malformed())?;
+        let point = point.flatten().ok_or_else(malformed)?;
+        let given = |part: Option<Option<i64>>| part.map_or(Ok(None), |part| part.map(Some).ok_or_else(malformed));
+        let (_, normal) = (given(texture)?, given(normal)?);
         if parts.next().is_some() {
             return Err(malformed());
         }
@@ -131,17 +133,36 @@ impl Mesh {
         (normals, faces)
     }
 
-    /// A face's normal: the sum of the cross products of its fan, which is 0 if it has no area.
+    /// A face's normal: the sum of the cross products of its fan, which is 0 if it has no area: where a face is folded onto itself
+    /// they cancel, and what float64 leaves of them has any direction.
     fn normal(&self, vertices: &[Vertex]) -> [f64; 3] {
         let [first, rest @ ..] = vertices else {
             return [0.0; 3];
         };
         let from_first =
             |vertex: &Vertex| [0, 1, 2].map(|i| self.points[vertex.point][i] - self.points[first.point][i]);
-        rest.windows(2).fold([0.0; 3], |sum, pair| {
+        let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let (mut sum, mut all) = ([0.0; 3], 0.0);
+        for pair in rest.windows(2) {
             let (a, b) = (from_first(&pair[0]), from_first(&pair[1]));
-            [0, 1, 2].map(|i| sum[i] + a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
-        })
+            let product = [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
+            sum = [0, 1, 2].map(|i| sum[i] + product[i]);
+            all += length(product);
+        }
+        if length(sum) <= CANCELLED * all { [0.0; 3] } else { sum }
+    }
+}
+
+/// What the roundings of a sum of products leave of it where it is 0, of the products' lengths.
+const CANCELLED: f64 = 1e-12;
+
+/// A number of a list; one too large for a word of 64 bits is as far beyond any list as the largest.
+fn index(text: &str) -> Option<i64> {
+    match text.parse::<i64>() {
+        Ok(index) => Some(index),
+        Err(error) if *error.kind() == IntErrorKind::PosOverflow => Some(i64::MAX),
+        Err(error) if *error.kind() == IntErrorKind::NegOverflow => Some(-i64::MAX),
+        Err(_) => None,
     }
 }
 

@@ -57,14 +57,17 @@ fn every_corner_has_its_normal() {
     let both = faces(&format!("{TRIANGLE}vn 1 0 0\nf 1//1 2//1 3//1\nf 3 2 1\n"));
     assert!(both[0].iter().all(|&(_, normal)| normal == own));
     assert!(both[1].iter().all(|&(_, [x, y, z])| x == 0.0 && y == 0.0 && z < 0.0));
+    // Folded onto itself, the two halves cancel, but for what float64 rounds of them.
+    let folded = faces("v .1 .2 .3\nv 1.1 .3 .17\nv .3 1.3 .7\nf 1 2 3 2\n");
+    assert!(folded[0].iter().all(|&(_, normal)| normal == [0.0; 3]), "{folded:?}");
     let none = faces("v 0 0 0\nv 1 1 1\nf 1 2 1\n");
     assert!(none[0].iter().all(|&(_, normal)| normal == [0.0; 3]));
 }
 
 #[test]
 fn the_rest_is_passed_over() {
-    let text = "\u{feff}# a # b\nmtllib ../../x.mtl\no é\ng\nvt 0 0\nvt a b\nv 0 0 0 1 # origin\r\nv\t2 0\\\n 0 .5 .5 .5\n\n\
-        v 0 \\\r\n2 \\\r\n0\ns off\nusemtl m\nl 1 9\np 1\nf 1 2 3 # c:\\\nf 3 2 1\r";
+    let text = "\u{feff}# a # b\nmtllib ../../x.mtl\no é\ng\nvt 0 0\nvt a b\nv 0 0 0 1 # origin\r\nv\t2 0\\ \t\n 0 .5 .5 .5\n\n\
+        v 0 \\ \r\n2 \\\r\n0\ns off\nusemtl m\nl 1 9\np 1\nf 1 2 3 # c:\\\nf 3 2 1\r";
     let found = faces(text);
     let points = |face: &Vec<(usize, [f64; 3])>| -> Vec<usize> { face.iter().map(|corner| corner.0).collect() };
     assert_eq!(found.iter().map(points).collect::<Vec<_>>(), [[0, 1, 2], [2, 1, 0]]);
@@ -85,6 +88,18 @@ fn faults_have_their_place() {
         ("v 0 0 0\nf 1 1\n", 2, 1, "a face needs 3 vertices or more, found 2"),
         ("v 0 0 0\nf 1 1 2\n", 2, 7, "no such vertex: 1 made so far, found `2`"),
         ("v 0 0 0\nf 1 1 -2\n", 2, 7, "no such vertex: 1 made so far, found `-2`"),
+        (
+            "v 0 0 0\nf 1 1 9223372036854775808\n",
+            2,
+            7,
+            "no such vertex: 1 made so far, found `9223372036854775808`",
+        ),
+        (
+            "v 0 0 0\nf 1 1 -99999999999999999999\n",
+            2,
+            7,
+            "no such vertex: 1 made so far, found `-99999999999999999999`",
+        ),
         ("v 0 0 0\nf 1 0 1\n", 2, 5, "indices start at 1 (or -1), found `0`"),
         (
             "v 0 0 0\nf 1//1 1 1\n",
