@@ -221,3 +221,11 @@ fn most(scene: &Scene) -> Vec<u8> {
     }
     most
 }
+
+#[test]
+fn as_many_lights_as_there_may_be_and_that_of_the_eye() {
+    let mut scene = quad_and("", Shading::Gouraud);
+    scene.model.lights = vec![scene.model.lights[0]; 1024];
+    scene.eyelight = true;
+    assert!(drawn(&scene).pixels.iter().any(|pixel| pixel.primitive != 0));
+}

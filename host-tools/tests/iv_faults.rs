@@ -478,6 +478,13 @@ fn the_first_fault_counts() {
 }
 
 #[test]
+fn the_1025th_light_is_where_there_are_too_many() {
+    let lights = |count: usize| fault(&format!("PerspectiveCamera {{}}\n{}", " PointLight {}\n".repeat(count)));
+    assert_eq!(lights(1024), None);
+    assert_eq!(lights(1025), Some((1026, 2, "more than 1024 lights".to_owned())));
+}
+
+#[test]
 fn a_long_scene_takes_no_longer_per_token() {
     let points = "0 1.5 -2e3,".repeat(1_000_000);
     let indices = "0,1,2,-1,".repeat(500_000);

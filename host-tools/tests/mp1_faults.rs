@@ -317,3 +317,10 @@ fn a_long_scene_takes_no_longer_per_line() {
     let one_line = format!("png 8 8 a.png\ncull{}", " x".repeat(1_000_000));
     assert_eq!(parse(&one_line), Err((2, 1)));
 }
+
+#[test]
+fn the_257th_clip_plane_is_where_there_are_too_many() {
+    let planes = |count: usize| parse(&format!("png 8 8 a.png\n{}", " clipplane 1 0 0 1\n".repeat(count)));
+    assert!(planes(256).is_ok());
+    assert_eq!(planes(257).err(), Some((258, 2)));
+}

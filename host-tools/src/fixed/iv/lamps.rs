@@ -6,10 +6,10 @@ use fixel::num::{self, Block, OneStep, Table, TwoSteps};
 
 use crate::fixed::dials::Precision;
 use crate::lower;
-use crate::scene::iv::{self, Light, Scene};
+use crate::scene::iv::{self, Light, MOST_LIGHTS, Scene};
 
-/// Lights that a scene may have.
-pub const LIGHTS: usize = 1024;
+/// Lights that a scene may have, that of the eye included.
+pub const LIGHTS: usize = MOST_LIGHTS + 1;
 
 /// The eye and the lights of a scene at a precision.
 pub enum AllLights {

@@ -12,10 +12,10 @@ use fixel::window::Window;
 use super::program::Sample;
 use crate::emit::log::Log;
 use crate::lower;
-use crate::scene::mp1::Switches;
+use crate::scene::mp1::{MOST_CLIP_PLANES, Switches};
 
 /// Clip planes that a scene may set, and the six of the frustum.
-pub const PLANES: usize = 256 + 6;
+pub const PLANES: usize = MOST_CLIP_PLANES + 6;
 
 /// The view volume: w ± x, w ± y, w ± z at least 0.
 const FRUSTUM: [[i32; 4]; 6] = [

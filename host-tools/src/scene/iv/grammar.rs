@@ -7,7 +7,7 @@
 use super::check::{CameraFields, MaterialFields, TransformFields, first};
 use super::faces::{self, Indices, Of};
 use super::parser::{Parser, quoted, unexpected};
-use super::{Camera, Light, Model, Object};
+use super::{Camera, Light, MOST_LIGHTS, Model, Object};
 use crate::scene::lex::Token;
 use crate::scene::{Fault, Place};
 
@@ -26,6 +26,9 @@ pub fn parse(text: impl AsRef<[u8]>) -> Result<Model, Fault> {
                 return Err(Fault::new(token.place, "a second PerspectiveCamera"));
             }
             "PerspectiveCamera" => camera = Some(read_camera(parser)?),
+            "PointLight" if lights.len() == MOST_LIGHTS => {
+                return Err(Fault::new(token.place, format!("more than {MOST_LIGHTS} lights")));
+            }
             "PointLight" => lights.push(read_light(parser)?),
             "Separator" => objects.push(read_separator(parser)?),
             "{" | "}" | "[" | "]" | "," => return Err(unexpected(token, "a block")),

@@ -118,6 +118,9 @@ impl Default for Camera {
     }
 }
 
+/// The most lights: what the core has room for beside that of the eye.
+pub const MOST_LIGHTS: usize = 1024;
+
 /// `PointLight`: does not fade with the distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light {
@@ -151,9 +154,6 @@ pub struct Object {
     pub faces: Vec<Face>,
 }
 
-/// `Transform`: points are scaled, then turned, then moved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Transform {
 impl Object {
     /// The points that faces refer to, each once: others are not drawn, and lie as far away as they like.
     pub fn used(&self) -> Vec<[f64; 3]> {
@@ -166,6 +166,9 @@ impl Object {
     }
 }
 
+/// `Transform`: points are scaled, then turned, then moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transform {
     /// Moves.
     pub translation: [f64; 3],
     /// Turns.

@@ -7,7 +7,7 @@ use std::array;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Primitive, Scene, Shape, Switches, Vertex};
+use super::{MOST_CLIP_PLANES, Primitive, Scene, Shape, Switches, Vertex};
 use crate::picture::Picture;
 use crate::scene::arguments::{Arguments, quoted};
 use crate::scene::header::{Header, header};
@@ -148,6 +148,9 @@ impl Parser<'_> {
             Keyword::Cull => self.switches.cull = true,
             Keyword::Decals => self.switches.decals = true,
             Keyword::Fsaa => self.switches.fsaa = self.fsaa(arguments)?,
+            Keyword::ClipPlane if self.switches.clip_planes.len() == MOST_CLIP_PLANES => {
+                return Err(fault(format!("more than {MOST_CLIP_PLANES} clip planes")));
+            }
             Keyword::ClipPlane => self.switches.clip_planes.push(arguments.numbers()?),
             Keyword::Png => return Err(fault("png appears a second time".to_owned())),
             Keyword::Rgb => (self.rgb, self.alpha) = (arguments.numbers()?, 1.0),

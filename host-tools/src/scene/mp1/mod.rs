@@ -29,6 +29,9 @@ pub struct Scene {
 }
 
 /// The full-scene switches.
+/// The most `clipplane` commands: what the core has room for beside the view volume's own.
+pub const MOST_CLIP_PLANES: usize = 256;
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Switches {
     /// `depth`: fragments are tested against a depth buffer.
