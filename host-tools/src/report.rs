@@ -69,7 +69,7 @@ impl Report {
         let mut opening = " (";
         for (name, count) in classes(&found.explained) {
             if count > 0 {
-                let share = percent(count, found.pixels_drawn);
+                let share = percent(count, found.most_drawn);
                 push(&mut line, format_args!("{opening}{name} {count} = {share:.2} %"));
                 opening = ", ";
             }
@@ -197,6 +197,7 @@ mod tests {
             comparison: Comparison {
                 beyond_gradient: 0,
                 pixels_drawn: 100,
+                most_drawn: 100,
                 coverage_differs: 1,
                 unexplained,
                 max_channel_error: 7,
@@ -219,6 +220,13 @@ mod tests {
             "a.txt: 20x10, 100 pixels drawn, 0 unexplained, 5 explained (colour 2 = 2.00 %, edge 3 = 3.00 %), \
              largest error 7, PSNR 54.2 dB, 1.5 ms fixed, 250.0 ms reference"
         );
+        (report.comparison.pixels_drawn, report.comparison.most_drawn) = (1, 200);
+        assert!(
+            report
+                .line()
+                .contains("1 pixels drawn, 0 unexplained, 5 explained (colour 2 = 1.00 %, edge 3 = 1.50 %)")
+        );
+        (report.comparison.pixels_drawn, report.comparison.most_drawn) = (100, 100);
         report.quality = Tier::Fast;
         assert!(report.line().starts_with(
             "a.txt: 20x10, quality fast, 100 pixels drawn, 0 unexplained by the bounds of exact, 5 explained"

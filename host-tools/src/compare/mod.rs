@@ -77,6 +77,8 @@ pub struct Explained {
 pub struct Comparison {
     /// Pixels covered in the core's picture.
     pub pixels_drawn: u64,
+    /// Pixels covered in the core's picture or in the reference's, whichever are more: what shares are of.
+    pub most_drawn: u64,
     /// Pixels covered in exactly one of the two pictures.
     pub coverage_differs: u64,
     /// Pixels of [`Class::Unexplained`].
@@ -206,8 +208,11 @@ impl Comparison {
         let rmse = (squares as f64 / (4 * reference.len()) as f64).sqrt();
         let ours = |pixel: &picture::Pixel| pixel.primitive != 0;
         let differ = |&(i, pixel): &(usize, &picture::Pixel)| ours(pixel) != drawn(i);
+        let pixels_drawn = fixed.pixels.iter().filter(|p| ours(p)).count() as u64;
+        let theirs = (0..reference.len()).filter(|&i| drawn(i)).count() as u64;
         Self {
-            pixels_drawn: fixed.pixels.iter().filter(|p| ours(p)).count() as u64,
+            pixels_drawn,
+            most_drawn: pixels_drawn.max(theirs),
             coverage_differs: fixed.pixels.iter().enumerate().filter(differ).count() as u64,
             unexplained: 0,
             max_channel_error,
