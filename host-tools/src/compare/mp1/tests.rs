@@ -365,7 +365,8 @@ fn on_a_border_either_texel_is_explained() {
     let texels = (0..side * side).map(|i| texel(i % side, i / side)).collect();
     let texture = Arc::new(Picture::new(10, 10, texels));
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    let vertices = corners.map(|[s, t]| format!("texcoord {s} {t}\nxyzw {:?} {:?} 0 1\n", s - 0.7, t - 0.7));
+    let place = |s: f64| if s > 0.0 { "0.3" } else { "-0.7" };
+    let vertices = corners.map(|[s, t]| format!("texcoord {s} {t}\nxyzw {} {} 0 1\n", place(s), place(t)));
     let quad = "trit 1 2 3\ntrit 1 3 4\n";
     let billboard = "xyzw -0.2 -0.2 0 1\nbillboard 20 5\n";
     for marks in [quad, billboard] {

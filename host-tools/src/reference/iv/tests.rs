@@ -221,7 +221,7 @@ fn numbers_that_overflow_draw_nothing() {
 
 #[test]
 fn a_corner_far_away_does_not_turn_a_triangle() {
-    // Of whole numbers below 2^40 and two of them below 2^14, so that the determinant is exact in 128 bits.
+    // A corner of whole numbers below 2^40 and two of some below 2^14 that lie side by side: exact in 128 bits.
     let mut state = 1_u64;
     let mut within = |bits: u32| {
         state = state
@@ -232,8 +232,8 @@ fn a_corner_far_away_does_not_turn_a_triangle() {
     let (mut front, mut back) = (0, 0);
     for far in 14..40 {
         for _ in 0..40 {
-            let mut near = || [0; 3].map(|_| i128::from(within(13)));
-            let (b, c) = (near(), near());
+            let b = [0; 3].map(|_| i128::from(within(13)));
+            let c = b.map(|coordinate| coordinate + i128::from(within(3)));
             let a = [0; 3].map(|_| i128::from(within(far)));
             let minor = |i: usize, j: usize| b[i] * c[j] - b[j] * c[i];
             let determinant = a[0] * minor(1, 2) + a[1] * minor(2, 0) + a[2] * minor(0, 1);
