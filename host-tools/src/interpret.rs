@@ -1,17 +1,19 @@
 //! Walks an HW2 scene's commands once and drives a back end: the state that belongs to no back end lives here.
 
 use crate::backend::{BackEnd, Patch, Surface, Vertex};
-use crate::scene::Fault;
+use crate::lower;
 use crate::scene::hw2::{Action, Fill, Scene};
+use crate::scene::{Fault, Place};
 
 /// Draws the scene.
 ///
 /// # Errors
-/// A fault at the keyword of a command whose values do not fit the back end.
+/// A fault at the keyword of a command whose values do not fit the back end, or at a vertex that is drawn and does not fit the core.
 pub fn interpret(scene: &Scene, back_end: &mut dyn BackEnd) -> Result<(), Fault> {
     let mut state = State {
         scene,
         vertices: Vec::new(),
+        places: Vec::new(),
         next: Vertex {
             position: [0.0; 4],
             color: [1.0; 3],
@@ -22,7 +24,11 @@ pub fn interpret(scene: &Scene, back_end: &mut dyn BackEnd) -> Result<(), Fault>
     };
     for command in &scene.commands {
         let fault = |message| Fault::new(command.place, message);
+        if matches!(command.action, Action::Vertex(_)) {
+            state.places.push(command.place);
+        }
         if !state.remember(&command.action) {
+            state.fits(&command.action)?;
             state.obey(&command.action, back_end).map_err(fault)?;
         }
     }
@@ -33,6 +39,8 @@ pub fn interpret(scene: &Scene, back_end: &mut dyn BackEnd) -> Result<(), Fault>
 struct State<'s> {
     scene: &'s Scene,
     vertices: Vec<Vertex>,
+    /// Where the vertices were made.
+    places: Vec<Place>,
     /// What the next vertex will be, but for its position.
     next: Vertex,
     /// Drawn so far.
@@ -50,6 +58,23 @@ impl State<'_> {
             _ => return false,
         }
         true
+    }
+
+    /// Whether what is drawn has vertices that the core can hold.
+    fn fits(&self, action: &Action) -> Result<(), Fault> {
+        let used: &[usize] = match action {
+            Action::Triangle(_, corners) => corners,
+            Action::RectPatch(_, _, points) => &points[..],
+            Action::TriPatch(_, _, points) => &points[..],
+            _ => &[],
+        };
+        for (vertex, place) in used
+            .iter()
+            .filter_map(|&i| Some((self.vertices.get(i)?, self.places.get(i)?)))
+        {
+            lower::keeps_w(vertex.position).map_err(|message| Fault::new(*place, message))?;
+        }
+        Ok(())
     }
 
     fn obey(&mut self, action: &Action, back_end: &mut dyn BackEnd) -> Result<(), String> {

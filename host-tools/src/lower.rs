@@ -11,6 +11,23 @@ pub fn block<const N: usize>(values: [f64; N]) -> Block<i64, N> {
     Block::gather(values.map(scaled))
 }
 
+/// Makes sure that a position's w is not lost: its four words share one exponent, so that a w beside something 2^62 times as large
+/// becomes 0, and the place a direction, of which the core draws something else or nothing.
+///
+/// # Errors
+/// One line that says so.
+pub fn keeps_w(position: [f64; 4]) -> Result<(), String> {
+    let [x, y, z, w] = position;
+    let [.., lowered] = block(position).split();
+    if w == 0.0 || !lowered.is_zero() {
+        return Ok(());
+    }
+    let largest = x.abs().max(y.abs()).max(z.abs());
+    Err(format!(
+        "w = {w:e} is lost beside {largest:e}, which is more than 2^61 times as large"
+    ))
+}
+
 /// The number, exactly.
 fn scaled(value: f64) -> Scaled<i64> {
     let bits = value.to_bits();
@@ -137,6 +154,21 @@ mod tests {
             let exponent = scaled(value).exponent();
             let half = (exponent / 2, exponent - exponent / 2);
             assert_eq!(m as f64 * 2f64.powi(half.0) * 2f64.powi(half.1), value);
+        }
+    }
+
+    #[test]
+    fn a_w_that_is_lost_is_told() {
+        for good in [
+            [5e18, 0.0, 0.5, 1.0],
+            [1e300, 0.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, -1e-300],
+            [1e30, 0.0, 0.0, 1e12],
+        ] {
+            assert_eq!(keeps_w(good), Ok(()), "{good:?}");
+        }
+        for bad in [[1e19, 0.0, 0.5, 1.0], [0.0, -1e30, 0.5, 1.0], [0.9, 0.1, 0.5, -1e-30]] {
+            assert!(keeps_w(bad).is_err(), "{bad:?}");
         }
     }
 

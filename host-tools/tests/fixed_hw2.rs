@@ -95,6 +95,30 @@ fn a_vertex_without_a_place_in_eye_space_is_lit_from_the_eye() {
 }
 
 #[test]
+fn a_vertex_whose_w_would_be_lost_is_refused_where_it_stands() {
+    let drawn = |vertices: &str, draw: &str| {
+        let text = format!("png 64 64 o.png\nxyz 0 -1 .5\n {vertices}\nxyz 0 1 .5\n{draw}\n");
+        let scene = hw2::parse(text, Path::new(".")).unwrap_or_else(|fault| panic!("{fault}"));
+        let mut fixed = Fixed::new(64, 64);
+        interpret(&scene, &mut fixed).map_err(|fault| (fault.place.line, fault.place.column))?;
+        Ok(fixed
+            .finish()
+            .pixels
+            .iter()
+            .filter(|pixel| pixel.primitive != 0)
+            .count())
+    };
+    for vertex in ["xyz 1e19 0 .5", "xyzw .3 1e-9 .5 -1e-20", "xyz 0 0 -1e300"] {
+        assert_eq!(drawn(vertex, "trif 1 2 3"), Err((3, 2)), "{vertex}");
+        assert_eq!(drawn(vertex, "tribezf 1 1 1 1 1 1 1 1 1 1 2"), Err((3, 2)), "{vertex}");
+        // Those that nothing draws do not matter, nor does a w of 0.
+        assert_eq!(drawn(vertex, ""), Ok(0), "{vertex}");
+        assert_eq!(drawn("xyzw 1e19 0 .5 0", "trif 1 2 3"), Ok(0));
+    }
+    assert!(drawn("xyz 5e18 0 .5", "trif 1 2 3").is_ok_and(|pixels| pixels > 1000));
+}
+
+#[test]
 fn lit_decals_are_coarser_where_w_has_both_signs() {
     let half = Arc::new(Picture::new(1, 1, vec![[10, 20, 30, 51]]));
     let vertex = |position, color| Vertex {

@@ -167,7 +167,7 @@ fn a_point_of_no_face_changes_nothing() {
     for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
         let alone = drawn(&quad_and("", shading));
         assert!(alone.pixels.iter().filter(|p| p.primitive != 0).count() > 150);
-        for point in ["1e12 -1e12 1e12,", "-3e9 0 0,"] {
+        for point in ["1e12 -1e12 1e12,", "-3e9 0 0,", "1e300 0 0,"] {
             let scene = quad_and(point, shading);
             let fixed = drawn(&scene);
             assert!(fixed.pixels == alone.pixels, "{shading:?} {point}");

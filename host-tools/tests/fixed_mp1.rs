@@ -324,3 +324,18 @@ fn no_alpha_at_all_is_equal_whatever_the_colour() {
     assert_eq!((comparison.max_channel_error, comparison.psnr), (0, None));
     assert_eq!(comparison.coverage_differs, 0);
 }
+
+#[test]
+fn a_vertex_whose_w_would_be_lost_is_refused() {
+    for (draw_it, place) in [
+        ("tri 1 2 3", Some((5, 1))),
+        ("line 2 3", Some((5, 1))),
+        ("point 5 2", Some((5, 1))),
+        ("point 5 1", None),
+    ] {
+        let text = format!("png 9 9 a.png\nxyzw 0 -1 0 1\nxyzw 1e19 0 0 1\nxyzw 0 1 0 1\n{draw_it}\n");
+        let scene = mp1::parse(text, Path::new(".")).unwrap_or_else(|fault| panic!("{fault}"));
+        let fault = draw(&scene).err().map(|fault| (fault.place.line, fault.place.column));
+        assert_eq!(fault, place, "{draw_it}");
+    }
+}

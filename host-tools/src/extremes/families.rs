@@ -33,14 +33,14 @@ pub const FAMILIES: [Family; 10] = [
         name: "w-above-zero",
         parameter: "1/w of one corner",
         values: &[1e1, 1e2, 1e3, 1e4, 1e6, 1e9, 1e12, 1e15, 1e30],
-        promised: 1e30,
+        promised: 1e15,
         scene: |value| towards_zero(1.0 / value),
     },
     Family {
         name: "w-below-zero",
         parameter: "−1/w of one corner",
         values: &[1e1, 1e2, 1e3, 1e4, 1e6, 1e9, 1e12, 1e15, 1e30],
-        promised: 1e30,
+        promised: 1e15,
         scene: |value| towards_zero(-1.0 / value),
     },
     Family {
@@ -54,7 +54,7 @@ pub const FAMILIES: [Family; 10] = [
         name: "coordinates",
         parameter: "largest coordinate",
         values: &[1e1, 1e3, 1e6, 1e9, 1e12, 1e15, 1e20, 1e30, 1e100, 1e300],
-        promised: 1e30,
+        promised: 1e15,
         scene: coordinates,
     },
     Family {

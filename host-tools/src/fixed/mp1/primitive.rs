@@ -45,6 +45,9 @@ impl<W: Word> Brush<'_, W> {
     /// # Errors
     /// One line that says what does not fit the core.
     pub fn draw(&self, canvas: &mut Canvas, number: u32, shape: &Shape) -> Result<(), String> {
+        for vertex in shape.vertices() {
+            lower::keeps_w(vertex.position)?;
+        }
         match shape {
             Shape::Triangle(vertices) => {
                 let (headroom, values) = self.colors(vertices);

@@ -2,6 +2,7 @@
 //! vertices.
 
 use std::collections::BTreeMap;
+use std::slice;
 use std::sync::Arc;
 
 use super::Place;
@@ -28,10 +29,10 @@ pub struct Scene {
     pub textures: BTreeMap<String, Arc<Picture>>,
 }
 
-/// The full-scene switches.
 /// The most `clipplane` commands: what the core has room for beside the view volume's own.
 pub const MOST_CLIP_PLANES: usize = 256;
 
+/// The full-scene switches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Switches {
     /// `depth`: fragments are tested against a depth buffer.
@@ -106,4 +107,15 @@ pub enum Shape {
     Line([Vertex; 2]),
     /// `wuline`.
     WuLine([Vertex; 2]),
+}
+
+impl Shape {
+    /// Its corners, ends or centre.
+    pub fn vertices(&self) -> &[Vertex] {
+        match self {
+            Self::Triangle(corners) | Self::Textured(corners, _) => corners,
+            Self::Point(_, centre) | Self::Billboard(_, centre, _) | Self::Circle(_, centre) => slice::from_ref(centre),
+            Self::Line(ends) | Self::WuLine(ends) => ends,
+        }
+    }
 }
