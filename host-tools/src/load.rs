@@ -8,7 +8,7 @@ use crate::files;
 use crate::scene::format::{self, Format};
 use crate::scene::iv::{self, Model, Shading};
 use crate::scene::size::Size;
-use crate::scene::{Scene, hw2, mp1, obj};
+use crate::scene::{Scene, hw2, mp1, obj, textures};
 
 /// A scene and where it came from.
 #[derive(Debug)]
@@ -30,10 +30,51 @@ impl Loaded {
     }
 }
 
+/// A file that is no scene we can draw.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refused {
+    /// Why.
+    pub failure: Failure,
+    /// The texture files that its text names.
+    pub textures: Vec<PathBuf>,
+}
+
+impl From<Failure> for Refused {
+    /// What failed before there was a text.
+    fn from(failure: Failure) -> Self {
+        Self {
+            failure,
+            textures: Vec::new(),
+        }
+    }
+}
+
+impl From<Refused> for Failure {
+    fn from(refused: Refused) -> Self {
+        refused.failure
+    }
+}
+
 /// Reads and parses a scene, in the format that the command line or else its text tells.
-pub fn load(file: &Path, args: &Args) -> Result<Loaded, Failure> {
-    let text = files::read(file)?;
-    let format = args.format.unwrap_or_else(|| format::detect(file, &text));
+pub fn load(file: &Path, args: &Args) -> Result<Loaded, Refused> {
+    let text = files::read(file).map_err(Failure::from)?;
+    match parse(file, &text, args) {
+        Ok((format, scene)) => Ok(Loaded {
+            file: file.to_owned(),
+            format,
+            text,
+            scene,
+        }),
+        Err(failure) => {
+            let names = textures::named(&text).into_iter();
+            let textures = names.map(|name| folder(file).join(name)).collect();
+            Err(Refused { failure, textures })
+        }
+    }
+}
+
+fn parse(file: &Path, text: &[u8], args: &Args) -> Result<(Format, Scene), Failure> {
+    let format = args.format.unwrap_or_else(|| format::detect(file, text));
     if let (Format::Hw2 | Format::Mp1, Some(option)) = (format, args.view_option()) {
         let message = format!(
             "{}: {option} is for iv and obj scenes, this one is {format}",
@@ -43,18 +84,13 @@ pub fn load(file: &Path, args: &Args) -> Result<Loaded, Failure> {
     }
     let size = args.size.unwrap_or(Size::DEFAULT);
     let parsed = match format {
-        Format::Hw2 => hw2::parse(&text, folder(file)).map(Scene::Hw2),
-        Format::Mp1 => mp1::parse(&text, folder(file)).map(Scene::Mp1),
-        Format::Iv => iv::parse(&text).map(|model| viewed(model, size, file, args)),
-        Format::Obj => obj::parse(&text, size).map(|model| viewed(model, size, file, args)),
+        Format::Hw2 => hw2::parse(text, folder(file)).map(Scene::Hw2),
+        Format::Mp1 => mp1::parse(text, folder(file)).map(Scene::Mp1),
+        Format::Iv => iv::parse(text).map(|model| viewed(model, size, file, args)),
+        Format::Obj => obj::parse(text, size).map(|model| viewed(model, size, file, args)),
     };
     match parsed {
-        Ok(scene) => Ok(Loaded {
-            file: file.to_owned(),
-            format,
-            text,
-            scene,
-        }),
+        Ok(scene) => Ok((format, scene)),
         Err(fault) => Err(Failure::scene(file, &fault)),
     }
 }

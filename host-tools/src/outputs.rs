@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::args::Args;
 use crate::exit::Failure;
 use crate::files::{self, Identity};
-use crate::load::Loaded;
+use crate::load::{Loaded, Refused};
 
 /// The files one scene writes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,21 +48,22 @@ enum Role<'a> {
     /// Read, and never to be overwritten; what it is read as.
     Input(&'static str),
     /// Written by this scene.
-    Output(&'a Path),
+    Output(&'a Loaded),
 }
 
 /// The outputs of all scenes, in order, if no file is written twice and none that is read is written. Scenes that
 /// failed to load write nothing, but no output may overwrite them either.
-pub fn plan(args: &Args, scenes: &[&Loaded]) -> Result<Vec<Outputs>, Failure> {
+pub fn plan(args: &Args, scenes: &[Result<Loaded, Refused>]) -> Result<Vec<Outputs>, Failure> {
     let mut roles: HashMap<Identity, Role<'_>> = HashMap::new();
     let mut protect = |file: &Path, what| {
         if let Some(identity) = files::identity(file) {
             roles.insert(identity, Role::Input(what));
         }
     };
-    for loaded in scenes {
-        for file in loaded.textures() {
-            protect(&file, "a texture");
+    for scene in scenes {
+        match scene {
+            Ok(loaded) => loaded.textures().for_each(|file| protect(&file, "a texture")),
+            Err(refused) => refused.textures.iter().for_each(|file| protect(file, "a texture")),
         }
     }
     for file in &args.scenes {
@@ -76,10 +77,11 @@ pub fn plan(args: &Args, scenes: &[&Loaded]) -> Result<Vec<Outputs>, Failure> {
     if let Some(file) = &args.report {
         claim_report(&mut roles, file)?;
     }
-    let outputs: Vec<_> = scenes.iter().map(|loaded| Outputs::new(args, loaded)).collect();
-    for (loaded, outputs) in scenes.iter().zip(&outputs) {
+    let good = || scenes.iter().flatten();
+    let outputs: Vec<_> = good().map(|loaded| Outputs::new(args, loaded)).collect();
+    for (loaded, outputs) in good().zip(&outputs) {
         for file in outputs.files() {
-            claim(&mut roles, file, &loaded.file)?;
+            claim(&mut roles, file, loaded)?;
         }
     }
     Ok(outputs)
@@ -99,22 +101,25 @@ fn claim_report(roles: &mut HashMap<Identity, Role<'_>>, file: &Path) -> Result<
     }
 }
 
-fn claim<'a>(roles: &mut HashMap<Identity, Role<'a>>, file: &Path, scene: &'a Path) -> Result<(), Failure> {
+fn claim<'a>(roles: &mut HashMap<Identity, Role<'a>>, file: &Path, scene: &'a Loaded) -> Result<(), Failure> {
     let Some(identity) = files::identity(file) else {
         return Ok(());
     };
-    let (scene_name, file) = (scene.display(), file.display());
+    let (scene_name, file) = (scene.file.display(), file.display());
     match roles.insert(identity, Role::Output(scene)) {
         None => Ok(()),
         Some(Role::Input(what)) => Err(Failure::bad(format!(
             "{scene_name}: its output {file} would overwrite {what}"
         ))),
-        Some(Role::Output(other)) if other == scene => {
+        Some(Role::Output(other)) if std::ptr::eq(other, scene) => {
             Err(Failure::bad(format!("{scene_name}: two pictures would go to {file}")))
         }
+        Some(Role::Output(other)) if other.file == scene.file => Err(Failure::bad(format!(
+            "{scene_name} is named twice, and would write {file} twice"
+        ))),
         Some(Role::Output(other)) => Err(Failure::bad(format!(
             "{} and {scene_name} would both write {file}",
-            other.display()
+            other.file.display()
         ))),
     }
 }

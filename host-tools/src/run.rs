@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use crate::args::Args;
 use crate::exit::{Exit, Failure};
 use crate::files::{self, Staged};
 use crate::fixed::dials::Dials;
-use crate::load::{Loaded, load};
+use crate::load::{Loaded, Refused, load};
 use crate::maps;
 use crate::outputs::{Outputs, plan};
 use crate::page::{self, Section};
@@ -24,18 +24,11 @@ use crate::sweep::sweep;
 
 /// Does what the command line says and tells how it went.
 pub fn run(args: &Args) -> Exit {
-    let results = match all(args) {
-        Ok(results) => results,
-        Err(exit) => return exit,
-    };
-    let mut worst = results.iter().map(exit).max().unwrap_or(Exit::Within);
-    if let Some(file) = &args.report
-        && let Err(failure) = write_page(file, args, &results)
-    {
-        complain(format_args!("{}", failure.message));
-        worst = worst.max(failure.exit);
-    }
-    match print(args, &results) {
+    let (outcomes, common) = all(args);
+    let own = outcomes.iter().map(exit);
+    let worst = own.chain(common.iter().map(|failure| failure.exit)).max();
+    let worst = worst.unwrap_or(Exit::Within);
+    match print(args, &outcomes, common.as_ref()) {
         Ok(()) => worst,
         // Nobody listens any more; what was to be written has been.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => worst,
@@ -62,21 +55,27 @@ fn exit(outcome: &Outcome) -> Exit {
     }
 }
 
-/// Renders all scenes. Ends early, before anything is rendered, where outputs collide.
-fn all(args: &Args) -> Result<Vec<Outcome>, Exit> {
-    let loaded: Vec<Result<Loaded, Failure>> = args
-        .scenes
-        .par_iter()
-        .map(|file| guarded(file, || load(file, args)))
-        .collect();
-    let good: Vec<&Loaded> = loaded.iter().filter_map(|loaded| loaded.as_ref().ok()).collect();
-    let outputs = plan(args, &good).map_err(|collision| {
-        let failures = loaded.iter().filter_map(|loaded| loaded.as_ref().err());
-        let all = failures.chain(std::iter::once(&collision));
-        all.clone()
-            .for_each(|failure| complain(format_args!("{}", failure.message)));
-        all.map(|failure| failure.exit).max().unwrap_or(Exit::Bad)
-    })?;
+/// Loads and renders all scenes, and says what went wrong with them together: where outputs collide, that is all scenes'
+/// failure, before anything is rendered or written; or the page cannot be written.
+fn all(args: &Args) -> (Vec<Outcome>, Option<Failure>) {
+    let load = |file: &PathBuf| guarded(file, || Ok(load(file, args))).unwrap_or_else(|failure| Err(failure.into()));
+    let loaded: Vec<Result<Loaded, Refused>> = args.scenes.par_iter().map(load).collect();
+    match plan(args, &loaded) {
+        Ok(outputs) => {
+            let outcomes = rendered(args, loaded, outputs);
+            let page = args.report.as_deref().map(|file| write_page(file, args, &outcomes));
+            (outcomes, page.and_then(Result::err))
+        }
+        Err(collision) => {
+            let outcome =
+                |loaded: Result<Loaded, Refused>| Err(loaded.map_or_else(Failure::from, |_| collision.clone()));
+            (loaded.into_iter().map(outcome).collect(), Some(collision))
+        }
+    }
+}
+
+/// Renders the good scenes, each to its outputs.
+fn rendered(args: &Args, loaded: Vec<Result<Loaded, Refused>>, outputs: Vec<Outputs>) -> Vec<Outcome> {
     let mut outputs = outputs.into_iter();
     let jobs: Vec<Result<(Loaded, Outputs), Failure>> = loaded
         .into_iter()
@@ -96,7 +95,7 @@ fn all(args: &Args) -> Result<Vec<Outcome>, Exit> {
         })
         .collect();
     bar.finish_and_clear();
-    Ok(outcomes)
+    outcomes
 }
 
 /// A bar for people who wait for several scenes.
@@ -185,9 +184,12 @@ fn stage(file: &Path, picture: &Picture) -> Result<Staged, Failure> {
     Ok(files::stage(file, bytes)?)
 }
 
-/// Failures go to standard error, first; the rest to standard output, one line per scene, in the scenes' order.
-fn print(args: &Args, outcomes: &[Outcome]) -> io::Result<()> {
-    for failure in outcomes.iter().filter_map(|outcome| outcome.as_ref().err()) {
+/// Failures go to standard error, first, the scenes' own before the `common` one; the rest to standard output, one line per
+/// scene, in the scenes' order.
+fn print(args: &Args, outcomes: &[Outcome], common: Option<&Failure>) -> io::Result<()> {
+    let failures = outcomes.iter().filter_map(|outcome| outcome.as_ref().err());
+    let own = failures.filter(|failure| Some(*failure) != common);
+    for failure in own.chain(common) {
         complain(format_args!("{}", failure.message));
     }
     let mut out = io::stdout().lock();

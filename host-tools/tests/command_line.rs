@@ -142,6 +142,42 @@ fn outputs_must_not_collide() {
     assert_eq!(folder.names(), ["a.txt", "b.txt"]);
 }
 
+/// An object for every scene, whatever becomes of them.
+#[test]
+fn scenes_that_collide_have_objects_too() {
+    let folder = Folder::new();
+    folder
+        .write("a.txt", SCENE)
+        .write("b.txt", SCENE)
+        .write("bad.txt", "png 1 1 c.png\nxyz");
+    let run = folder.run("a.txt bad.txt b.txt --json --report r.html");
+    let collision = "a.txt and b.txt would both write ./out.png";
+    let expected: [(_, _, Option<u64>); 3] = [
+        ("a.txt", collision, None),
+        ("bad.txt", "bad.txt: line 2", Some(2)),
+        ("b.txt", collision, None),
+    ];
+    refused(&run, collision);
+    assert_eq!(run.out.lines().count(), expected.len(), "{}", run.out);
+    for (line, (scene, error, place)) in run.out.lines().zip(expected) {
+        let object: serde_json::Value = serde_json::from_str(line).expect("an object");
+        assert_eq!((&object["scene"], &object["exit"]), (&scene.into(), &2.into()));
+        assert!(
+            object["error"].as_str().is_some_and(|text| text.starts_with(error)),
+            "{line}"
+        );
+        assert_eq!(object["line"].as_u64(), place, "{line}");
+    }
+    // The scene's own fault first, the collision once.
+    assert!(run.err.starts_with("bad.txt: line 2, column 1: "), "{}", run.err);
+    assert_eq!(run.err.lines().count(), 2, "{}", run.err);
+
+    let run = folder.run("a.txt a.txt --json");
+    refused(&run, "a.txt is named twice, and would write ./out.png twice");
+    assert_eq!(run.out.lines().count(), 2, "{}", run.out);
+    assert_eq!(folder.names(), ["a.txt", "b.txt", "bad.txt"]);
+}
+
 #[test]
 fn what_is_read_is_never_written() {
     let folder = Folder::new();
@@ -175,6 +211,36 @@ fn what_is_read_is_never_written() {
     assert_eq!(folder.read("t.png"), png);
     assert_eq!(folder.read("a.txt"), SCENE.as_bytes());
     assert!(!folder.path("ok.png").exists() && !folder.path("out.png").exists());
+}
+
+/// What a scene names is its own even while the scene has a fault: its author is going to mend it.
+#[test]
+fn textures_of_bad_scenes_are_never_written() {
+    let folder = Folder::new();
+    let brick = picture(6, 5, [9; 4]);
+    folder
+        .write("brick.png", &brick)
+        .write("before.txt", "png 6 5 q.png\nxyz 1 2\ntexture ./brick.png\n")
+        .write("behind.txt", "png 6 5 q.png\ntexture brick.png\nxyz 1 2\n")
+        .write("m.txt", "png 6 5 q.png\nsRGB\ntexture brick.png\nxyzw 1 2\n")
+        .write(
+            "good.txt",
+            scene("q.png").replace("xyz -1 -1 0", "texture brick.png\nxyz -1 -1 0"),
+        )
+        .write("over.txt", scene("brick.png"))
+        .write("brick.iv", IV);
+    for arguments in [
+        "before.txt over.txt",
+        "over.txt behind.txt",
+        "over.txt m.txt",
+        "behind.txt --report brick.png",
+        "good.txt brick.iv --eyelight",
+    ] {
+        let run = folder.run(arguments);
+        refused(&run, "brick.png would overwrite a texture");
+        assert!(folder.read("brick.png") == brick, "{arguments}");
+        assert!(!folder.path("q.png").exists(), "{arguments}");
+    }
 }
 
 #[test]
@@ -363,6 +429,17 @@ fn files_that_cannot_be_had() {
     let run = folder.run("a.txt -o out.png");
     assert!(run.err.contains("it is a directory"), "{}", run.err);
     assert_eq!(folder.names(), ["a.txt", "out.png"]);
+}
+
+#[test]
+fn a_bad_scene_is_told_before_a_report_that_cannot_be_written() {
+    let folder = Folder::new();
+    let run = folder
+        .write("bad.txt", "png 1 1 c.png\nxyz")
+        .run("bad.txt --report nosuch/r.html");
+    assert_eq!(run.code, Some(3), "{run:?}");
+    assert!(run.err.starts_with("bad.txt: line 2, column 1: "), "{}", run.err);
+    assert!(run.err.contains("\nnosuch/r.html: cannot write: "), "{}", run.err);
 }
 
 #[test]

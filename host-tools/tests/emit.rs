@@ -38,7 +38,7 @@ fn emitted_with(file: &Path, words: &[&str]) -> (String, Emitted) {
     let name = file.file_stem().unwrap().to_string_lossy().into_owned();
     let all = ["host-render", file.to_str().unwrap()];
     let args = Args::from(all.iter().chain(words)).unwrap();
-    let loaded = load(file, &args).unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
+    let loaded = load(file, &args).unwrap_or_else(|failure| panic!("{name}: {}", failure.failure.message));
     let emitted = emit(&loaded.scene, "a test").unwrap_or_else(|fault| panic!("{name}: {fault}"));
     (name, emitted)
 }

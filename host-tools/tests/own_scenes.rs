@@ -30,7 +30,7 @@ fn scenes() -> Vec<(String, Scene)> {
     for path in paths.iter().filter(|p| p.extension().is_some_and(|e| e != "png")) {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let args = Args::from(["host-render".as_ref(), path.as_os_str()]).expect("a command line");
-        let loaded = load(path, &args).unwrap_or_else(|failure| panic!("{}", failure.message));
+        let loaded = load(path, &args).unwrap_or_else(|refused| panic!("{}", refused.failure.message));
         let Scene::Iv(scene) = loaded.scene else {
             scenes.push((name, loaded.scene));
             continue;

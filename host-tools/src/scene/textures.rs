@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::arguments::{Arguments, quoted};
-use super::{Fault, MOST_PIXELS};
+use super::{Fault, MOST_PIXELS, lex, names};
 use crate::files;
 use crate::picture::Picture;
 
@@ -47,6 +47,16 @@ impl<'l, T: Clone> Textures<'l, T> {
     }
 }
 
+/// The names that lines of a text give to textures, whatever is wrong with the text: what a bad scene calls its own is not
+/// to be overwritten either.
+pub fn named(text: &[u8]) -> Vec<String> {
+    let lines = lex::lines(text).filter_map(Result::ok);
+    let named = lines.filter(|line| line.keyword.text == "texture");
+    named
+        .filter_map(|line| names::inside(line.arguments.first()?.text).ok())
+        .collect()
+}
+
 /// A lookup that reads files of `folder`, which may have [`MOST_PIXELS`] in all.
 pub fn in_folder(folder: &Path) -> impl FnMut(&str) -> Result<Arc<Picture>, String> {
     let mut room = MOST_PIXELS;
@@ -55,5 +65,16 @@ pub fn in_folder(folder: &Path) -> impl FnMut(&str) -> Result<Arc<Picture>, Stri
         room = (room.checked_sub(texture.pixels.len() as u64))
             .ok_or_else(|| format!("too large: with it, the scene's textures are more than {MOST_PIXELS} pixels"))?;
         Ok(Arc::new(texture))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::named;
+
+    #[test]
+    fn textures_are_known_before_and_behind_a_fault() {
+        let text = b"png 1\ntexture a.png\n# texture b.png\n\xFF\ntexture\ntexture ../c.png\n texture ./d.png 1\n";
+        assert_eq!(named(text), ["a.png", "d.png"]);
     }
 }

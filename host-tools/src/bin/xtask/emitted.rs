@@ -146,7 +146,7 @@ pub fn emitted(file: &Path, further: &[&str]) -> Result<Emitted, Failure> {
     let mut words = vec!["host-render".into(), file.as_os_str().to_owned()];
     words.extend(further.iter().map(OsString::from));
     let args = Args::from(words).map_err(|e| Failure::Usage(e.to_string()))?;
-    let loaded = load(file, &args).map_err(|failure| Failure::Trouble(failure.message))?;
+    let loaded = load(file, &args).map_err(|refused| Failure::Trouble(refused.failure.message))?;
     emit(&loaded.scene, "cargo xtask emitted").map_err(|fault| Failure::trouble(file.display(), fault))
 }
 
