@@ -35,19 +35,24 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Trouble> {
 
 /// A PNG file as a picture.
 pub fn read_picture(path: &Path) -> Result<Picture, Trouble> {
-    let file = File::open(path).map_err(|error| trouble(path, "read", error))?;
-    png::decode(BufReader::new(file)).map_err(|error| trouble(path, "read", error))
+    let picture = open_file(path).and_then(png::decode);
+    picture.map_err(|error| trouble(path, "read", error))
 }
 
 /// A PNG file as a texture; the error says what is wrong with it, without the name.
 pub fn read_texture(path: &Path) -> Result<Picture, String> {
+    png::decode_texture(open_file(path)?)
+}
+
+/// A file proper, opened; the error says what is wrong with it, without the name.
+fn open_file(path: &Path) -> Result<BufReader<File>, String> {
     let kind = fs::metadata(path).map_err(|error| error.to_string())?;
     // A pipe would make us wait for ever for somebody to write.
     if !kind.is_file() {
         return Err("not a file".to_owned());
     }
     let file = File::open(path).map_err(|error| error.to_string())?;
-    png::decode_texture(BufReader::new(file))
+    Ok(BufReader::new(file))
 }
 
 /// Tells whether two names mean the same file, whatever their spelling, links included.
@@ -114,6 +119,21 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
+/// The descriptor that a name such as `/dev/stdout` or `/dev/fd/3` means, links followed: whoever opened the file behind it
+/// wants it written where it stands, not replaced.
+fn descriptor(path: &Path) -> Option<u32> {
+    const MOST_LINKS: usize = 40;
+    let folder = fs::canonicalize("/dev/fd").ok()?;
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        if fs::canonicalize(folder_of(&path)).is_ok_and(|found| found == folder) {
+            return path.file_name()?.to_str()?.parse().ok();
+        }
+        path = folder_of(&path).join(fs::read_link(&path).ok()?);
+    }
+    None
+}
+
 /// A file that is ready to take its place.
 #[derive(Debug)]
 pub struct Staged {
@@ -127,10 +147,18 @@ enum Kind {
     Beside(NamedTempFile, PathBuf),
     /// A pipe or a device, which must not be replaced by a file.
     Stream(Vec<u8>),
+    /// A descriptor that somebody opened for us.
+    Descriptor(u32, Vec<u8>),
 }
 
 /// Prepares `name` to hold `bytes`. Nothing is changed until [`Staged::commit`]; dropping it changes nothing.
 pub fn stage(name: &Path, bytes: Vec<u8>) -> Result<Staged, Trouble> {
+    if let Some(number) = descriptor(name) {
+        return Ok(Staged {
+            name: name.to_owned(),
+            kind: Kind::Descriptor(number, bytes),
+        });
+    }
     let target = followed(name);
     let kind = match fs::metadata(&target) {
         Ok(found) if found.is_dir() => {
@@ -193,6 +221,11 @@ fn without_name(error: io::Error) -> io::Error {
     }
 }
 
+fn all(mut stream: impl Write, bytes: &[u8]) -> io::Result<()> {
+    stream.write_all(bytes)?;
+    stream.flush()
+}
+
 impl Staged {
     /// Puts the file in its place.
     pub fn commit(self) -> Result<(), Trouble> {
@@ -200,6 +233,13 @@ impl Staged {
             Kind::Beside(file, target) => file.persist(target).map(drop).map_err(|e| e.error),
             Kind::Stream(bytes) => OpenOptions::new()
                 .write(true)
+                .open(&self.name)
+                .and_then(|mut stream| stream.write_all(&bytes)),
+            Kind::Descriptor(1, bytes) => all(io::stdout().lock(), &bytes),
+            Kind::Descriptor(2, bytes) => all(io::stderr().lock(), &bytes),
+            // Another one can only be opened anew: at the file's end, where nothing is lost.
+            Kind::Descriptor(_, bytes) => OpenOptions::new()
+                .append(true)
                 .open(&self.name)
                 .and_then(|mut stream| stream.write_all(&bytes)),
         };

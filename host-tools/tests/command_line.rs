@@ -503,6 +503,44 @@ mod unix {
         assert_eq!(mode("new.png"), mode("plain"), "as any new file");
     }
 
+    /// Whoever opened it for us, as `>>` of a shell does, wants it written where it stands.
+    #[test]
+    fn standard_output_is_written_to_and_not_replaced() {
+        let folder = Folder::new();
+        folder.write("a.txt", SCENE);
+        for (redirection, before) in [("1>>all", "old\n"), ("1>all", ""), ("3>>all", "old\n")] {
+            folder.write("all", "old\n");
+            let number = &redirection[..1];
+            let shell = format!("exec \"$0\" a.txt -o /dev/fd/{number} {redirection}");
+            let status = std::process::Command::new("sh")
+                .args(["-c", &shell, env!("CARGO_BIN_EXE_host-render")])
+                .current_dir(folder.path("."))
+                .stdout(std::process::Stdio::null())
+                .status()
+                .expect("a shell");
+            assert_eq!(status.code(), Some(0), "{redirection}");
+            let all = folder.read("all");
+            let picture = all.strip_prefix(before.as_bytes()).expect(redirection);
+            assert!(picture.starts_with(b"\x89PNG"), "{redirection}");
+            let line = String::from_utf8_lossy(picture).contains("a.txt: 6x5, ");
+            assert_eq!(line, number == "1", "{redirection}");
+            assert_eq!(folder.names(), ["a.txt", "all"]);
+        }
+    }
+
+    #[test]
+    fn nobody_is_waited_for_at_a_pipe() {
+        let folder = Folder::new();
+        let made = std::process::Command::new("mkfifo")
+            .arg(folder.path("pipe.png"))
+            .status()
+            .expect("mkfifo");
+        assert!(made.success());
+        let run = folder.write("a.txt", SCENE).run("a.txt --against pipe.png");
+        assert_eq!(run.code, Some(3), "{run:?}");
+        assert_eq!(run.err, "pipe.png: cannot read: not a file\n");
+    }
+
     #[test]
     fn a_device_is_written_to_and_not_replaced() {
         let folder = Folder::new();
