@@ -56,6 +56,14 @@ impl Failure {
         }
     }
 
+    /// The same, told of the scene in `file`.
+    pub fn of(self, file: &Path) -> Self {
+        Self {
+            message: format!("{}: {}", file.display(), self.message),
+            ..self
+        }
+    }
+
     /// A panic while working on `file`.
     pub fn panic(file: &Path, payload: &(dyn std::any::Any + Send)) -> Self {
         let what = payload

@@ -35,3 +35,4 @@ pub mod run;
 pub mod scene;
 pub mod shaded;
 pub mod sweep;
+pub mod words;

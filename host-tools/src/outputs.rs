@@ -35,7 +35,8 @@ impl Outputs {
         }
     }
 
-    fn files(&self) -> impl Iterator<Item = &Path> {
+    /// All of them.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
         std::iter::once(self.picture.as_path())
             .chain(self.reference.as_deref())
             .chain(self.diff.as_deref())

@@ -10,6 +10,7 @@ use crate::compare::{Comparison, Explained};
 use crate::exit::{Exit, Failure};
 use crate::fixed::dials::Tier;
 use crate::scene::format::Format;
+use crate::words::counted;
 
 /// All that is known of a rendered scene.
 #[derive(Debug)]
@@ -32,6 +33,8 @@ pub struct Report {
     pub seconds_reference: f64,
     /// With `--against`: how the core's picture and the reference's compare with the existing one.
     pub against: Option<[Agreement; 2]>,
+    /// With `--ties`, so that some pixels may be excused.
+    pub ties: bool,
 }
 
 impl Report {
@@ -57,8 +60,9 @@ impl Report {
         push(
             &mut line,
             format_args!(
-                ", {} pixels drawn, {} unexplained",
-                found.pixels_drawn, found.unexplained
+                ", {} drawn, {} unexplained",
+                counted(found.pixels_drawn, "pixel"),
+                found.unexplained
             ),
         );
         if self.quality != Tier::Exact {
@@ -82,10 +86,15 @@ impl Report {
         }
         if let Some([fixed, reference]) = self.against {
             let (outside, all) = (fixed.over_2_percent_outside_ties, fixed.over_2_percent);
-            push(
-                &mut line,
-                format_args!(", against: {outside} over 2 % outside ties, {all} in all, reference "),
-            );
+            if self.ties {
+                push(
+                    &mut line,
+                    format_args!(", against: {outside} over 2 % outside ties, {all} in all"),
+                );
+            } else {
+                push(&mut line, format_args!(", against: {all} over 2 %"));
+            }
+            line.push_str(", reference ");
             line.push_str(if reference.identical {
                 "identical"
             } else {
@@ -209,6 +218,7 @@ mod tests {
             seconds_fixed: 0.0015,
             seconds_reference: 0.25,
             against: None,
+            ties: false,
         }
     }
 
@@ -232,11 +242,15 @@ mod tests {
             "a.txt: 20x10, quality fast, 100 pixels drawn, 0 unexplained by the bounds of exact, 5 explained"
         ));
         report.against = Some([Agreement::default(); 2]);
+        assert!(report.line().contains(", against: 0 over 2 %, reference NOT identical"));
+        report.ties = true;
         assert!(
             report
                 .line()
-                .contains("0 over 2 % outside ties, 0 in all, reference NOT identical")
+                .contains(", against: 0 over 2 % outside ties, 0 in all, reference NOT identical")
         );
+        report.comparison.pixels_drawn = 1;
+        assert!(report.line().contains(", 1 pixel drawn, "));
     }
 
     #[test]

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use crate::against::Against;
 use crate::args::Args;
+use crate::compare::Class;
 use crate::exit::{Exit, Failure};
 use crate::files::{self, Staged};
 use crate::fixed::dials::Dials;
@@ -18,9 +19,9 @@ use crate::outputs::{Outputs, plan};
 use crate::page::{self, Section};
 use crate::picture::Picture;
 use crate::png;
-use crate::render::{Rendered, render};
+use crate::render::render;
 use crate::report::{self, Report};
-use crate::sweep::sweep;
+use crate::sweep::{self, Sweep};
 
 /// Does what the command line says and tells how it went.
 pub fn run(args: &Args) -> Exit {
@@ -113,10 +114,11 @@ fn guarded<T>(file: &Path, work: impl FnOnce() -> Result<T, Failure>) -> Result<
 }
 
 fn one(args: &Args, loaded: &Loaded, outputs: &Outputs) -> Outcome {
+    let dials = Dials::of(args.quality);
+    let fit = dials.fit(&loaded.scene, format_args!("--quality {}", args.quality));
+    fit.map_err(|message| Failure::bad(message).of(&loaded.file))?;
     let against = Against::read(args, loaded)?;
-    let rendered =
-        render(&loaded.scene, Dials::of(args.quality)).map_err(|fault| Failure::scene(&loaded.file, &fault))?;
-    write(outputs, &rendered)?;
+    let rendered = render(&loaded.scene, dials).map_err(|fault| Failure::scene(&loaded.file, &fault))?;
     let (width, height) = loaded.scene.size();
     let report = Report {
         scene: loaded.file.display().to_string(),
@@ -127,17 +129,39 @@ fn one(args: &Args, loaded: &Loaded, outputs: &Outputs) -> Outcome {
         against: against.map(|against| [&rendered.fixed, &rendered.reference].map(|p| against.agreement(p))),
         seconds_fixed: rendered.seconds_fixed,
         seconds_reference: rendered.seconds_reference,
+        ties: args.ties.is_some(),
         comparison: rendered.comparison,
     };
     let section = match args.report {
         Some(_) => {
-            let sweep = args.sweep.then(|| sweep(loaded, args)).transpose()?;
+            let sweep = args.sweep.then(|| swept(args, loaded, outputs)).transpose()?;
             let pictures = [&rendered.fixed, &rendered.reference];
             Some(page::section(loaded, pictures, &report, sweep.as_ref())?)
         }
         None => None,
     };
+    // Last: an existing picture stays where anything of the scene fails.
+    let classes = &report.comparison.classes;
+    let written = write(
+        outputs,
+        [&rendered.fixed, &rendered.reference],
+        &rendered.depth,
+        classes,
+    );
+    written.map_err(|failure| failure.of(&loaded.file))?;
     Ok(Told { report, section })
+}
+
+/// The sweep for the report, or why the tiers cannot be compared: the scene's pictures are what they are without.
+fn swept(args: &Args, loaded: &Loaded, outputs: &Outputs) -> Result<Result<Sweep, String>, Failure> {
+    if let Err(why) = sweep::fits(&loaded.scene) {
+        return Ok(Err(why));
+    }
+    // Before the work, of which a name mistyped would leave nothing.
+    for file in outputs.files() {
+        files::stage(file, Vec::new()).map_err(|trouble| Failure::from(trouble).of(&loaded.file))?;
+    }
+    sweep::sweep(loaded, args).map(Ok)
 }
 
 /// Writes the page that `--report` asks for.
@@ -155,18 +179,23 @@ fn write_page(file: &Path, args: &Args, outcomes: &[Outcome]) -> Result<(), Fail
 }
 
 /// Writes a scene's pictures: all are made ready before the first takes its place.
-fn write(outputs: &Outputs, rendered: &Rendered) -> Result<(), Failure> {
-    let (width, height) = rendered.fixed.size();
-    let mut staged = vec![stage(&outputs.picture, &rendered.fixed)?];
+fn write(
+    outputs: &Outputs,
+    [fixed, reference]: [&Picture; 2],
+    depths: &[u16],
+    classes: &[Class],
+) -> Result<(), Failure> {
+    let (width, height) = fixed.size();
+    let mut staged = vec![stage(&outputs.picture, fixed)?];
     if let Some(file) = &outputs.reference {
-        staged.push(stage(file, &rendered.reference)?);
+        staged.push(stage(file, reference)?);
     }
     if let Some(file) = &outputs.diff {
-        let diff = maps::classes(width, height, &rendered.comparison.classes);
+        let diff = maps::classes(width, height, classes);
         staged.push(stage(file, &diff)?);
     }
     if let Some(file) = &outputs.depth {
-        let depth = maps::depths(width, height, &rendered.depth);
+        let depth = maps::depths(width, height, depths);
         staged.push(stage(file, &depth)?);
     }
     for file in staged {

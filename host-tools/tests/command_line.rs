@@ -425,6 +425,8 @@ fn files_that_cannot_be_had() {
         assert_eq!(run.code, Some(3), "{run:?}");
         assert!(run.err.contains(file), "{}", run.err);
         assert_eq!(run.err.lines().count(), 1, "{}", run.err);
+        let scene = arguments.split(' ').next().unwrap_or_default();
+        assert!(run.err.starts_with(&format!("{scene}: ")), "{}", run.err);
     }
     let run = folder.run("a.txt -o out.png");
     assert!(run.err.contains("it is a directory"), "{}", run.err);

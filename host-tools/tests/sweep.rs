@@ -464,11 +464,28 @@ fn pictures_with_wide_edges_are_exact_only() {
     let folder = Folder::new();
     folder.write("a.txt", SCENE.replace("64 48", "4097 2"));
     assert_eq!(folder.run("a.txt").code, Some(0));
-    for arguments in ["a.txt --quality fast", "sweep a.txt"] {
+    let exact = folder.read("out.png");
+    for (arguments, what) in [("a.txt --quality fast", "--quality fast"), ("sweep a.txt", "a sweep")] {
         let run = folder.run(arguments);
         assert_eq!(run.code, Some(2), "{run:?}");
-        assert!(run.err.contains("4097 samples a side"), "{}", run.err);
+        // Of the options: no line of the scene is wrong.
+        let told = format!("a.txt: 4097 samples a side are too many for {what}: it takes at most 4096\n");
+        assert_eq!(run.err, told);
     }
+    let run = folder.run_alone("sweep a.txt --max-instructions 30");
+    assert!(
+        run.err.contains("needs valgrind"),
+        "asked before the sweep: {}",
+        run.err
+    );
+
+    // A report shows what there is.
+    folder.write("out.png", "");
+    let run = folder.run("a.txt --report r.html --sweep");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    assert!(folder.read("out.png") == exact);
+    let page = String::from_utf8(folder.read("r.html")).expect("UTF-8");
+    assert!(page.contains("No tiers to compare: 4097 samples a side are too many"));
 }
 
 /// Every scene at hand, by name; faces small and lit at every pixel.

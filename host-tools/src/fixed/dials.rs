@@ -302,6 +302,14 @@ impl Dials {
     /// # Errors
     /// A fault of the whole scene.
     pub fn check(self, scene: &Scene) -> Result<(), Fault> {
+        self.fit(scene, "a quality other than exact").map_err(Fault::of_whole)
+    }
+
+    /// As [`check`](Self::check), in words of `what` asked for these dials.
+    ///
+    /// # Errors
+    /// What is wrong, without the scene's name.
+    pub fn fit(self, scene: &Scene, what: impl fmt::Display) -> Result<(), String> {
         let fsaa = match scene {
             Scene::Mp1(scene) => scene.switches.fsaa,
             Scene::Hw2(_) | Scene::Iv(_) => 1,
@@ -311,8 +319,8 @@ impl Dials {
         if self.are_exact() || side <= LARGEST {
             return Ok(());
         }
-        Err(Fault::of_whole(format!(
-            "{side} samples a side: with a quality other than exact there are at most {LARGEST}"
-        )))
+        Err(format!(
+            "{side} samples a side are too many for {what}: it takes at most {LARGEST}"
+        ))
     }
 }

@@ -54,7 +54,8 @@ pub fn page(command: &str, sections: &[Result<&Section, &Failure>]) -> String {
     page.into_string()
 }
 
-/// The part of one scene, of the core's picture and the reference's; and what speed costs in accuracy, if that was asked for.
+/// The part of one scene, of the core's picture and the reference's; and what speed costs in accuracy, if that was asked for,
+/// or why that is not known.
 ///
 /// # Errors
 /// A picture that cannot be made into a PNG.
@@ -62,7 +63,7 @@ pub fn section(
     loaded: &Loaded,
     [fixed, reference]: [&Picture; 2],
     report: &Report,
-    sweep: Option<&Sweep>,
+    sweep: Option<&Result<Sweep, String>>,
 ) -> Result<Section, Failure> {
     let (width, height) = fixed.size();
     let found = &report.comparison;
@@ -82,8 +83,10 @@ pub fn section(
                 (chart::histogram(&errors))
                 (chart::cumulative(&errors))
             }
-            @if let Some(sweep) = sweep {
-                (tradeoff::tradeoff(sweep))
+            @match sweep {
+                Some(Ok(sweep)) => (tradeoff::tradeoff(sweep)),
+                Some(Err(why)) => p { "No tiers to compare: " (why) "." },
+                None => {}
             }
             (requires::features(loaded))
             (requires::table(loaded, width, height))

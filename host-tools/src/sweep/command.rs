@@ -29,7 +29,7 @@ scenes the largest.";
 
 /// Draws scenes with every tier and every dial that matters, and shows what speed costs in accuracy.
 #[derive(Debug, Clone, Parser)]
-#[command(name = "host-render sweep", version, after_help = NOTES)]
+#[command(name = "host-render sweep", bin_name = "host-render sweep", version, after_help = NOTES)]
 pub struct Command {
     /// Scene files
     #[arg(required = true, value_name = "SCENE")]
@@ -52,7 +52,7 @@ pub struct Command {
     eyelight: bool,
 
     /// Recommend the cheapest whose error is at most E levels of 255 on 99.9 % of the pixels
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", value_parser = levels)]
     max_error: Option<u8>,
 
     /// Recommend the nearest to float64 with at most I instructions per drawn pixel; needs valgrind
@@ -70,6 +70,11 @@ pub struct Command {
     /// Only draws the one scene with this setting, for valgrind to count.
     #[arg(long, hide = true, value_name = "NAME")]
     draw: Option<String>,
+}
+
+fn levels(text: &str) -> Result<u8, String> {
+    let number = text.parse();
+    number.map_err(|_| "a whole number from 0 to 255 is wanted".to_owned())
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -137,13 +142,13 @@ impl Command {
 
     fn one(&self, scene: &Path) -> Outcome {
         let args = self.args(scene);
-        let sweep = sweep(&load(scene, &args)?, &args)?;
-        if self.max_instructions.is_some() && sweep.unit != Unit::Instructions {
+        let loaded = load(scene, &args)?;
+        if self.max_instructions.is_some() && cost::unit() != Unit::Instructions {
             return Err(Failure::bad(
                 "--max-instructions needs valgrind, which is not installed",
             ));
         }
-        Ok(sweep)
+        sweep(&loaded, &args)
     }
 
     fn args(&self, scene: &Path) -> Args {

@@ -45,7 +45,7 @@ const DRAWS: usize = 5;
 /// # Errors
 /// A valgrind that does not count, or a scene that the core cannot draw.
 pub fn costs(loaded: &Loaded, args: &Args, settings: &[Setting]) -> Result<(Unit, Vec<f64>), Failure> {
-    if has_valgrind() {
+    if unit() == Unit::Instructions {
         let count = |setting: &Setting| instructions(&loaded.file, args, setting);
         let counts: Result<_, _> = settings.par_iter().map(count).collect();
         return Ok((Unit::Instructions, counts?));
@@ -56,9 +56,14 @@ pub fn costs(loaded: &Loaded, args: &Args, settings: &[Setting]) -> Result<(Unit
     Ok((Unit::Seconds, times))
 }
 
-fn has_valgrind() -> bool {
+/// What costs are counted in on this machine.
+pub fn unit() -> Unit {
     let version = Command::new("valgrind").arg("--version").output();
-    version.is_ok_and(|output| output.status.success())
+    if version.is_ok_and(|output| output.status.success()) {
+        Unit::Instructions
+    } else {
+        Unit::Seconds
+    }
 }
 
 /// The name of the function that valgrind counts in.

@@ -24,8 +24,10 @@ use rayon::prelude::*;
 use crate::args::Args;
 use crate::exit::Failure;
 use crate::fixed;
+use crate::fixed::dials::{Dials, Tier};
 use crate::load::Loaded;
 use crate::render::Reference;
+use crate::scene::Scene;
 
 /// One setting of the dials, drawn and counted.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,11 +57,20 @@ pub struct Sweep {
     pub points: Vec<Point>,
 }
 
+/// Whether all tiers can draw a scene.
+///
+/// # Errors
+/// Why not, without the scene's name.
+pub fn fits(scene: &Scene) -> Result<(), String> {
+    Dials::of(Tier::Fast).fit(scene, "a sweep")
+}
+
 /// Draws and counts every setting that matters for a scene.
 ///
 /// # Errors
 /// A scene that does not fit the core or one of its tiers, or a valgrind that counts nothing.
 pub fn sweep(loaded: &Loaded, args: &Args) -> Result<Sweep, Failure> {
+    fits(&loaded.scene).map_err(|message| Failure::bad(message).of(&loaded.file))?;
     let failed = |fault| Failure::scene(&loaded.file, &fault);
     let settings = settings(&loaded.scene);
     // Equal dials draw the same at the same cost: each is drawn and counted once.
