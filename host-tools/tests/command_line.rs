@@ -577,3 +577,49 @@ fn the_help_names_the_tiers_and_the_sweep() {
     }
     assert!(!run.out.contains("--draw"), "{}", run.out);
 }
+
+#[test]
+fn commands_name_themselves() {
+    let folder = Folder::new();
+    for (command, text) in [
+        ("emit", "Exit codes: 0 written, "),
+        ("sweep", "Exit codes: 0 done, "),
+        ("extremes", "Exit codes: 0 every bound holds"),
+    ] {
+        let help = folder.run(&format!("{command} --help"));
+        assert_eq!(help.code, Some(0), "{help:?}");
+        let usage = format!("Usage: host-render {command} [OPTIONS]");
+        assert!(help.out.contains(&usage) && help.out.contains(text), "{}", help.out);
+        let wrong = folder.run(&format!("{command} --nosuch"));
+        refused(&wrong, &format!("Usage: host-render {command} "));
+        let version = folder.run(&format!("{command} -V"));
+        assert_eq!(version.code, Some(0), "{version:?}");
+        assert!(
+            version.out.starts_with(&format!("host-render {command} ")),
+            "{}",
+            version.out
+        );
+    }
+}
+
+/// Before a minute's work.
+#[test]
+fn charts_of_extremes_have_a_folder_or_are_not_drawn() {
+    let folder = Folder::new();
+    let run = folder.run("extremes --out-dir nosuch");
+    assert_eq!(run.code, Some(3), "{run:?}");
+    assert!(run.err.contains("there is no folder nosuch"), "{}", run.err);
+    assert_eq!(run.out, "");
+}
+
+#[test]
+fn what_is_emitted_says_by_which_command() {
+    let folder = Folder::new();
+    let run = folder
+        .write("it's.txt", SCENE)
+        .run("emit it's.txt -o x.rs --format hw2");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    let text = String::from_utf8(folder.read("x.rs")).expect("UTF-8");
+    let line = text.lines().next().unwrap_or_default();
+    assert_eq!(line, "// Made by: host-render emit \"it's.txt\" -o x.rs --format hw2");
+}

@@ -21,6 +21,8 @@ use crate::scene::size::Size;
 #[derive(Debug, Clone, Parser)]
 #[command(
     name = "host-render emit",
+    bin_name = "host-render emit",
+    version,
     after_help = "Exit codes: 0 written, 2 bad scene or bad usage, 3 file trouble, 4 internal error."
 )]
 pub struct Command {
@@ -114,6 +116,10 @@ impl Command {
                 );
                 return Err(Failure::bad(message));
             };
+if self.shading == Some(Shading::Phong) {
+                let message = "--mesh takes --shading flat or gouraud: phong is for a fragment program of your own";
+                return Err(Failure::bad(message));
+            }
             let mut mesh = Mesh::new(&scene.model, scene.shading).map_err(failure)?;
             if self.compact {
                 mesh = mesh.compact();
@@ -127,11 +133,11 @@ impl Command {
 
     /// The command as it would be typed in the scene's folder; whatever the names hold, one line.
     fn origin(&self) -> String {
-        let name = |file: &Path| {
-            let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            name.escape_debug().to_string()
-        };
+        let name = |file: &Path| typed(&file.file_name().unwrap_or_default().to_string_lossy());
         let mut origin = format!("host-render emit {} -o {}", name(&self.scene), name(&self.output));
+        if let Some(format) = self.format {
+            origin += &format!(" --format {format}");
+        }
         if let Some(size) = self.size {
             origin += &format!(" --size {}x{}", size.width(), size.height());
         }
@@ -151,6 +157,20 @@ impl Command {
     }
 }
 
+/// A name as one would type it. What cannot be typed is escaped, so that it stays in the comment's line.
+fn typed(name: &str) -> String {
+    let plain = |c: char| matches!(c, '\\' | '\'' | '"') || c.escape_debug().len() == 1;
+    let name = if name.chars().all(plain) {
+        name.to_owned()
+    } else {
+        name.escape_debug().to_string()
+    };
+    // Only a zero byte cannot be quoted, and that is escaped.
+    shlex::try_quote(&name)
+        .map(|name| name.into_owned())
+        .unwrap_or_default()
+}
+
 fn print(Written(lines): &Written) -> Exit {
     let mut out = io::stdout().lock();
     let printed = lines
@@ -163,5 +183,25 @@ fn print(Written(lines): &Written) -> Exit {
             Exit::Files
         }
         _ => Exit::Within,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::typed;
+
+    #[test]
+    fn names_are_typed_as_a_shell_reads_them() {
+        for (name, expected) in [
+            ("scene.txt", "scene.txt"),
+            ("my scene.txt", "'my scene.txt'"),
+            ("it's.txt", "\"it's.txt\""),
+            ("a\\b.txt", r#""a\\b.txt""#),
+            ("a\nfn main() {}", r#""a\\nfn main() {}""#),
+            ("a\u{202e}b", r#""a\\u{202e}b""#),
+            ("a\0b", r#""a\\0b""#),
+        ] {
+            assert_eq!(typed(name), expected, "{name:?}");
+        }
     }
 }

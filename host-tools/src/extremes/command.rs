@@ -1,19 +1,24 @@
 //! `host-render extremes`.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Parser;
 use serde_json::{Value, json};
 
-use super::{Curve, Outcome, curves, table};
+use super::{ALL, Curve, Family, Outcome, curves, table};
 use crate::exit::{Exit, Failure};
 use crate::files;
+
+const EXIT_CODES: &str = "\
+This takes a minute or more.
+
+Exit codes: 0 every bound holds as far as is promised, 1 one does not, 2 bad usage, 3 file trouble, 4 internal error.";
 
 /// Drives one number of a scene after the other to its limits, and says how far the stated bounds explain what differs from
 /// float64 and what happens beyond.
 #[derive(Debug, Parser)]
-#[command(name = "host-render extremes", version)]
+#[command(name = "host-render extremes", bin_name = "host-render extremes", version, after_help = EXIT_CODES)]
 pub struct Command {
     /// Where a chart of each family goes, as SVG [default: nowhere]
     #[arg(long, value_name = "DIR")]
@@ -36,16 +41,23 @@ impl Command {
 
     /// Draws everything, prints, and writes the charts. A bound that does not hold as far as is promised is a difference.
     pub fn run(&self) -> Exit {
-        let curves = curves();
-        if let Err(failure) = self.write(&curves) {
-            // If standard error is gone, there is nobody to tell; the exit code still does.
-            let _ = writeln!(io::stderr(), "{}", failure.message);
-            return failure.exit;
+        // Before the work, of which a name mistyped would leave nothing.
+        if let Err(failure) = self.can_write() {
+            return told(&failure);
         }
+        let curves = curves();
+        let printed = self.print(&curves);
+        match self.write(&curves) {
+            Ok(()) => printed,
+            Err(failure) => printed.max(told(&failure)),
+        }
+    }
+
+    fn print(&self, curves: &[Curve]) -> Exit {
         let text = if self.json {
             curves.iter().map(|curve| object(curve).to_string() + "\n").collect()
         } else {
-            table(&curves)
+            table(curves)
         };
         let mut out = io::stdout().lock();
         let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
@@ -63,11 +75,30 @@ impl Command {
     fn write(&self, curves: &[Curve]) -> Result<(), Failure> {
         let Some(folder) = &self.out_dir else { return Ok(()) };
         for curve in curves {
-            let file = folder.join(format!("{}.svg", curve.family.name));
-            files::stage(&file, curve.chart().into_bytes())?.commit()?;
+            files::stage(&file(folder, curve.family), curve.chart().into_bytes())?.commit()?;
         }
         Ok(())
     }
+
+    /// Makes the charts' files ready without changing any.
+    fn can_write(&self) -> Result<(), Failure> {
+        let Some(folder) = &self.out_dir else { return Ok(()) };
+        for family in &ALL {
+            files::stage(&file(folder, family), Vec::new())?;
+        }
+        Ok(())
+    }
+}
+
+/// Where a family's chart goes.
+fn file(folder: &Path, family: &Family) -> PathBuf {
+    folder.join(format!("{}.svg", family.name))
+}
+
+/// Says what went wrong. If standard error is gone, there is nobody to tell; the exit code still does.
+fn told(failure: &Failure) -> Exit {
+    let _ = writeln!(io::stderr(), "{}", failure.message);
+    failure.exit
 }
 
 fn object(curve: &Curve) -> Value {

@@ -44,12 +44,14 @@ pub struct Curve {
     pub outcomes: Vec<(f64, Outcome)>,
 }
 
+/// Every family there is a curve of.
+static ALL: [Family; 11] = {
+    let [a, b, c, d, e, f, g, h, i, j] = FAMILIES;
+    [a, b, c, d, e, f, g, h, i, j, EXPONENTS]
+};
+
 /// Draws every scene of every family.
 pub fn curves() -> Vec<Curve> {
-    static ALL: [Family; 11] = {
-        let [a, b, c, d, e, f, g, h, i, j] = FAMILIES;
-        [a, b, c, d, e, f, g, h, i, j, EXPONENTS]
-    };
     let curve = |family: &'static Family| Curve {
         family,
         outcomes: family
