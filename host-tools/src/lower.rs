@@ -138,7 +138,9 @@ pub fn byte(value: i64, shift: i32) -> u8 {
 pub fn shininess(exponent: f64) -> Result<Option<u32>, String> {
     let units = (exponent * 65536.0).round();
     if units > f64::from(u32::MAX) {
-        return Err("a shininess of 65536 or more".into());
+        return Err(format!(
+            "a shininess of {exponent}: the core takes exponents below 65536"
+        ));
     }
     Ok((exponent > 0.0).then_some((units as u32).max(1)))
 }

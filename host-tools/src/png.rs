@@ -97,8 +97,28 @@ fn unreadable(error: DecodingError) -> String {
             "not a whole PNG file: it ends too early".to_owned()
         }
         DecodingError::IoError(error) => error.to_string(),
-        other => format!("not a readable PNG file: {other}"),
+        DecodingError::Format(error) => malformed(&error.to_string()),
+        DecodingError::LimitsExceeded => "not a readable PNG file: a part beside its pixels is too large".to_owned(),
+        DecodingError::Parameter(_) => "not a readable PNG file: it cannot be decoded".to_owned(),
     }
+}
+
+/// What is wrong with a file, from what the decoder says, whose words show how it keeps chunks and are for its authors.
+fn malformed(said: &str) -> String {
+    const REASONS: [(&str, &str); 6] = [
+        ("CRC error", "a checksum is wrong"),
+        ("Invalid image dimensions", "its header gives it no pixels"),
+        ("Invalid bit depth", "its header is wrong"),
+        ("Invalid color", "its header is wrong"),
+        ("Missing palette", "its palette is missing"),
+        ("Not enough palette", "its palette is too short"),
+    ];
+    if said.starts_with("Invalid PNG signature") {
+        return "not a PNG file".to_owned();
+    }
+    let reason = REASONS.iter().find(|(beginning, _)| said.starts_with(beginning));
+    let reason = reason.map_or("its data is damaged", |(_, reason)| reason);
+    format!("not a readable PNG file: {reason}")
 }
 
 #[cfg(test)]
@@ -207,6 +227,47 @@ mod tests {
             assert!(decode(Cursor::new(cut)).is_err(), "{length} bytes");
         }
         assert!(decode(Cursor::new(b"png 8 8 out.png")).is_err());
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_in_our_words() {
+        let whole = encode(&Picture::new(4, 4, vec![[9, 8, 7, 6]; 16])).expect("encoded");
+        let mut wrong_sum = whole.clone();
+        wrong_sum[29] ^= 1;
+        let with = |header: &[u8], data: &[u8]| {
+            let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
+            chunk(&mut bytes, b"IHDR", header);
+            chunk(&mut bytes, b"IDAT", data);
+            chunk(&mut bytes, b"IEND", &[]);
+            bytes
+        };
+        let unreadable = |reason: &str| format!("not a readable PNG file: {reason}");
+        for (bytes, message) in [
+            (b"png 8 8 out.png".to_vec(), "not a PNG file".to_owned()),
+            (wrong_sum, unreadable("a checksum is wrong")),
+            (
+                with(&[0, 0, 0, 0, 0, 0, 0, 2, 8, 6, 0, 0, 0], &[]),
+                unreadable("its header gives it no pixels"),
+            ),
+            (
+                with(&[0, 0, 0, 2, 0, 0, 0, 2, 3, 6, 0, 0, 0], &[]),
+                unreadable("its header is wrong"),
+            ),
+            (
+                with(&[0, 0, 0, 2, 0, 0, 0, 2, 8, 5, 0, 0, 0], &[]),
+                unreadable("its header is wrong"),
+            ),
+            (
+                with(&[0, 0, 0, 2, 0, 0, 0, 2, 8, 3, 0, 0, 0], &stored(&[0; 6])),
+                unreadable("its palette is missing"),
+            ),
+            (
+                with(&[0, 0, 0, 2, 0, 0, 0, 2, 8, 0, 0, 0, 0], &[0xFF; 9]),
+                unreadable("its data is damaged"),
+            ),
+        ] {
+            assert_eq!(decode(Cursor::new(&bytes)), Err(message));
+        }
     }
 
     fn chunk(bytes: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {

@@ -623,3 +623,36 @@ fn what_is_emitted_says_by_which_command() {
     let line = text.lines().next().unwrap_or_default();
     assert_eq!(line, "// Made by: host-render emit \"it's.txt\" -o x.rs --format hw2");
 }
+
+#[test]
+fn messages_say_what_is_wrong() {
+    let folder = Folder::new();
+    folder
+        .write("a.txt", SCENE)
+        .write("c.obj", OBJ)
+        .write(
+            "bright.txt",
+            scene("b.png").replace("color", "sunlight 0 0 1\nshininess 70000\ncolor"),
+        )
+        .write("far.iv", IV.replace("0,1,2,3,-1", "0,1,1e300,3,-1"));
+    for (arguments, message) in [
+        ("sweep a.txt --max-error 0.5", "a whole number from 0 to 255 is wanted"),
+        (
+            "emit c.obj -o c.rs --mesh --shading phong",
+            "--mesh takes --shading flat or gouraud",
+        ),
+        (
+            "bright.txt",
+            "bright.txt: line 6, column 1: a shininess of 70000: the core takes exponents below 65536",
+        ),
+        ("far.iv", "coordinate index 1e300 out of range (4 points)"),
+    ] {
+        let run = folder.run(arguments);
+        refused(&run, message);
+        assert!(
+            !arguments.contains("--mesh") || run.err.starts_with(message),
+            "{}",
+            run.err
+        );
+    }
+}

@@ -95,7 +95,7 @@ fn hostile_textures_have_one_clear_error_and_little_memory() {
     for (what, texture, message) in [
         ("truncated", good[..good.len() / 2].to_vec(), "it ends too early"),
         ("without its end", good[..good.len() - 12].to_vec(), "not a "),
-        ("not PNG", b"png 8 8 out.png\n".to_vec(), "not a readable PNG file"),
+        ("not PNG", b"png 8 8 out.png\n".to_vec(), "not a PNG file"),
         ("empty", Vec::new(), "it ends too early"),
         ("a wrong checksum", wrong_crc, "not a readable PNG file"),
         (

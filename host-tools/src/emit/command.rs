@@ -116,7 +116,7 @@ impl Command {
                 );
                 return Err(Failure::bad(message));
             };
-if self.shading == Some(Shading::Phong) {
+            if self.shading == Some(Shading::Phong) {
                 let message = "--mesh takes --shading flat or gouraud: phong is for a fragment program of your own";
                 return Err(Failure::bad(message));
             }

@@ -9,6 +9,7 @@ use super::drawing::{Drawing, Lights, Paint, Pixels, Program, Surface, Varying};
 use super::replay::Work;
 use super::write::Sorted;
 use super::write::kinds::{Form, Kind, Place};
+use crate::words::counted;
 
 /// Rows of the strips for which RAM is told.
 const STRIP: u64 = 16;
@@ -136,7 +137,8 @@ fn described(drawing: &Drawing, kind: &Kind) -> String {
     };
     let lights = kind.lights.map_or(String::new(), |set| {
         let (suns, bulbs) = counts(&drawing.lights[set]);
-        format!(", {suns} distant lights and {bulbs} at points")
+        let (suns, bulbs) = (counted(suns, "distant light"), counted(bulbs, "point light"));
+        format!(", {suns} and {bulbs}")
     });
     format!("{what}, {}: {values}{lights}", program(&kind.program))
 }

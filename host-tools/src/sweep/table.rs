@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde_json::{Value, json};
 
 use super::{Budget, Errors, Point, Sweep, Unit, recommended};
+use crate::words::counted;
 
 impl Sweep {
     /// A table, and what is recommended for the budget.
@@ -12,9 +13,9 @@ impl Sweep {
         let (width, height) = self.size;
         let name = self.points.iter().map(|point| point.name.len()).max().unwrap_or(0);
         let mut text = format!(
-            "{}: {width}x{height}, {} pixels drawn; errors against float64 in levels of 255\n  {:name$} {:>12} {:>9} {:>4} {:>6} {:>7} {:>7} {:>8} {:>8}\n",
+            "{}: {width}x{height}, {} drawn; errors against float64 in levels of 255\n  {:name$} {:>12} {:>9} {:>4} {:>6} {:>7} {:>7} {:>8} {:>8}\n",
             self.scene,
-            self.pixels,
+            counted(self.pixels, "pixel"),
             "",
             self.unit.name(),
             "per pixel",
@@ -57,10 +58,10 @@ impl Sweep {
     fn advice(&self, budget: &Budget) -> String {
         let error = budget
             .max_error
-            .map(|most| format!("at most {most} levels on 99.9 % of the pixels"));
+            .map(|most| format!("at most {} on 99.9 % of the pixels", counted(most, "level")));
         let cost = budget
             .max_instructions
-            .map(|most| format!("at most {most} instructions per pixel"));
+            .map(|most| format!("at most {} per pixel", counted(most, "instruction")));
         let asked: Vec<String> = error.into_iter().chain(cost).collect();
         let best = recommended(self, budget).map_or("nothing", |point| point.name.as_str());
         format!("{}: {best}\n", asked.join(" and "))

@@ -85,6 +85,7 @@ impl Indices {
     /// A fault if an index is not below `count`, the number of points or normals; the first such index.
     pub fn within(&self, count: usize) -> Option<Fault> {
         let &(index, place) = self.records.iter().find(|(index, _)| *index >= count as f64)?;
+        let index = shown(index);
         let message = match self.of {
             Of::Points => format!("coordinate index {index} out of range ({count} points)"),
             Of::Normals => format!("normal index {index} out of range ({count} normals)"),
@@ -95,6 +96,15 @@ impl Indices {
     fn faces(&self) -> impl Iterator<Item = &[usize]> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         starts.zip(&self.ends).map(|(start, &end)| &self.corners[start..end])
+    }
+}
+
+/// An index as it may have been written: one that no list is long enough for has up to 309 digits, of which few were.
+fn shown(index: f64) -> String {
+    if index < 1e15 {
+        index.to_string()
+    } else {
+        format!("{index:e}")
     }
 }
 
