@@ -1,5 +1,6 @@
 //! A scene drawn twice and the two pictures held against each other.
 
+use std::hint;
 use std::time::Instant;
 
 use crate::compare::{self, Comparison};
@@ -25,6 +26,31 @@ pub struct Rendered {
     pub seconds_fixed: f64,
     /// Time to draw with the reference.
     pub seconds_reference: f64,
+}
+
+/// What a sample takes at least while a scene is drawn and compared, in bytes; measured, it is 67 and more.
+const SAMPLE: u64 = 64;
+
+/// Whether a scene has room in memory, as far as that is known beforehand: to run out of it later ends the whole run, all other
+/// scenes included.
+///
+/// # Errors
+/// What is wrong, without the scene's name.
+pub fn room(scene: &Scene) -> Result<(), String> {
+    let (width, height) = scene.size();
+    let samples = u64::from(width) * u64::from(height) * u64::from(scene.fsaa()).pow(2);
+    let bytes = samples * SAMPLE;
+    let mut room: Vec<u8> = Vec::new();
+    let reserved = usize::try_from(bytes).is_ok_and(|bytes| room.try_reserve_exact(bytes).is_ok());
+    // Or else nothing would be asked for, as nothing is kept there.
+    hint::black_box(&room);
+    if reserved {
+        return Ok(());
+    }
+    let most = bytes >> 20;
+    Err(format!(
+        "a picture of {width}x{height} takes {most} MiB of memory and more, which cannot be had"
+    ))
 }
 
 /// Draws a scene with both back ends, at the same time where there are processors for it, the core's dials set as given.

@@ -19,7 +19,7 @@ use crate::outputs::{Outputs, plan};
 use crate::page::{self, Section};
 use crate::picture::Picture;
 use crate::png;
-use crate::render::render;
+use crate::render::{render, room};
 use crate::report::{self, Report};
 use crate::sweep::{self, Sweep};
 
@@ -116,6 +116,7 @@ fn guarded<T>(file: &Path, work: impl FnOnce() -> Result<T, Failure>) -> Result<
 fn one(args: &Args, loaded: &Loaded, outputs: &Outputs) -> Outcome {
     let dials = Dials::of(args.quality);
     let fit = dials.fit(&loaded.scene, format_args!("--quality {}", args.quality));
+    let fit = fit.and_then(|()| room(&loaded.scene));
     fit.map_err(|message| Failure::bad(message).of(&loaded.file))?;
     let against = Against::read(args, loaded)?;
     let rendered = render(&loaded.scene, dials).map_err(|fault| Failure::scene(&loaded.file, &fault))?;

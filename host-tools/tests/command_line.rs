@@ -260,6 +260,29 @@ fn a_scene_that_fails_takes_no_other_down() {
     assert_eq!(folder.names(), ["bad.txt", "good.png", "good.txt"]);
 }
 
+/// To run out of memory ends a program on the spot.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_scene_that_has_no_room_takes_no_other_down() {
+    let folder = Folder::new();
+    folder
+        .write("a.txt", SCENE)
+        .write("big.txt", scene("big.png").replace("6 5", "16384 4096"))
+        .write("samples.txt", "png 4096 1024 s.png\nfsaa 4\n");
+    let run = folder.run_within(1 << 30, "big.txt a.txt samples.txt --json");
+    for file in [
+        "big.txt: a picture of 16384x4096",
+        "samples.txt: a picture of 4096x1024",
+    ] {
+        refused(
+            &run,
+            &format!("{file} takes 4096 MiB of memory and more, which cannot be had\n"),
+        );
+    }
+    assert_eq!(run.out.lines().count(), 3, "{}", run.out);
+    assert_eq!(folder.names(), ["a.txt", "big.txt", "out.png", "samples.txt"]);
+}
+
 #[test]
 fn other_formats_and_keywords_are_told_apart() {
     let folder = Folder::new();

@@ -310,12 +310,8 @@ impl Dials {
     /// # Errors
     /// What is wrong, without the scene's name.
     pub fn fit(self, scene: &Scene, what: impl fmt::Display) -> Result<(), String> {
-        let fsaa = match scene {
-            Scene::Mp1(scene) => scene.switches.fsaa,
-            Scene::Hw2(_) | Scene::Iv(_) => 1,
-        };
         let (width, height) = scene.size();
-        let side = width.max(height) * fsaa;
+        let side = width.max(height) * scene.fsaa();
         if self.are_exact() || side <= LARGEST {
             return Ok(());
         }

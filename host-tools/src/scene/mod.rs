@@ -104,6 +104,14 @@ impl Scene {
         }
     }
 
+    /// Samples per pixel in each direction.
+    pub fn fsaa(&self) -> u32 {
+        match self {
+            Self::Mp1(scene) => scene.switches.fsaa,
+            Self::Hw2(_) | Self::Iv(_) => 1,
+        }
+    }
+
     /// The picture's file name, as the scene or its own name suggests it; relative, inside the folder.
     pub fn output(&self) -> &str {
         match self {
