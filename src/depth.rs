@@ -135,7 +135,7 @@ pub trait Depth {
         Some((cells, fine))
     }
 
-    /// Calls `draw` with `pixels` from the first on, up to the first whose fragment does not pass; how many are left behind that. Depths
+    /// Calls `draw` with `pixels` from the first on, up to the first whose fragment does not pass; how many are left from that one on. Depths
     /// as in [`pass`](Self::pass).
     #[inline(always)]
     fn pass_first<'a, P>(
@@ -151,7 +151,7 @@ pub trait Depth {
         let mut fragments = pixels.iter_mut().zip(cells);
         while let Some((pixel, cell)) = fragments.next() {
             if !Self::test(cell, fine >> 15) {
-                return fragments.size_hint().0;
+                return fragments.size_hint().0.wrapping_add(1);
             }
             draw(pixel);
             fine = fine.wrapping_add(step);
@@ -316,7 +316,7 @@ impl<D: Target<Pixel = u16>, C: Comparison> Depth for DepthBuffer<D, C> {
             // Not unrolled: the state of several would not fit the registers.
             black_box(());
             if !Self::test(cell, fine >> 15) {
-                return others.len();
+                return others.len().wrapping_add(1);
             }
             draw(pixel);
             fine = fine.wrapping_add(step);

@@ -256,7 +256,7 @@ where
                 }
                 // Looked up once more: kept, it would take registers.
                 span = Span::new(row, *columns, &window);
-                span.left = span.right.wrapping_sub(left_over as i32);
+                span.left = span.right.wrapping_sub(left_over as i32).wrapping_add(1);
                 if !F::COMPACT {
                     inside.shade_others(color, depth, &span, fragment);
                     break;
@@ -289,8 +289,8 @@ impl<V: Varying> Inside<V> {
     }
 
     /// One span: what is hidden at its start costs the comparison and one addition for each pixel, and nothing else is looked
-    /// at before the first visible one. How many pixels are left behind a hidden one that
-    /// comes behind a visible one, or first where a [`Depth`] of one's own skips none.
+    /// at before the first visible one. How many pixels are left from a hidden one on that
+    /// comes behind a visible one, or first where a [`Depth`] of one's own skips none; that one is done with.
     #[inline(always)]
     fn span<C, D, F>(&self, color: &mut C, depth: &mut D, span: &Span, fragment: &F) -> usize
     where
@@ -442,7 +442,7 @@ impl<V: Varying> Inside<V> {
     }
 
     /// `pixels` from the first on, at depth `fine`, up to the first that is hidden, which `cells` tell; how many are left
-    /// behind that.
+    /// from that one on.
     ///
     /// A function of its own: inlined, the rows' state takes its registers. On Cortex-M4 an RGB565 pixel of interpolated colour
     /// costs 15 instructions here (`cargo xtask measure`), as by hand, on ARMv6-M, which keeps five of its words in memory, 27.
