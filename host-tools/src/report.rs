@@ -234,7 +234,7 @@ mod tests {
         assert!(
             report
                 .line()
-                .contains("1 pixels drawn, 0 unexplained, 5 explained (colour 2 = 1.00 %, edge 3 = 1.50 %)")
+                .contains("1 pixel drawn, 0 unexplained, 5 explained (colour 2 = 1.00 %, edge 3 = 1.50 %)")
         );
         (report.comparison.pixels_drawn, report.comparison.most_drawn) = (100, 100);
         report.quality = Tier::Fast;

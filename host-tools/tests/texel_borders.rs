@@ -21,7 +21,8 @@ fn drawn(scene: &str, texture: &[u8], format: &str) -> Vec<u8> {
     folder.write("s.txt", scene).write("t.png", texture);
     let run = folder.run(&format!("s.txt --format {format}"));
     // Where float64 has rounded a border the other way, that is no difference that is not explained; nothing else is looked at.
-    assert!(matches!(run.code, Some(0 | 1)), "{}", run.err);
+    assert!(matches!(run.code, Some(0 | 1)), "{}{}", run.out, run.err);
+    assert_eq!(folder.names(), ["o.png", "s.txt", "t.png"]);
     let bytes = folder.read("o.png");
     let picture = fixel_host::png::decode(std::io::Cursor::new(bytes)).expect("a picture");
     picture.pixels.iter().map(|[red, ..]| *red).collect()
