@@ -18,6 +18,8 @@ pub const FLOAT_PRODUCT: f64 = 2.0 * f64::EPSILON;
 /// Interpolation of a colour, in levels of 255 for colours up to 1 (in proportion beyond): units of 2⁻¹⁶ levels, and
 /// rounded gradients stepped along a span in 2⁻¹⁴ of them.
 pub const COLOR_LEVELS: f64 = 1.0 / 256.0;
+/// What the core adds to texture coordinates, in texels, so that those on a border pick the texel that exact arithmetic does.
+pub const TEXEL_NUDGE: f64 = 1.0 / 4096.0;
 
 /// A gradient is off by this part of itself (normalised numerator, reciprocal, product). From the polygon's first corner
 /// on, that adds up to as much of |gradient in x| · columns + |gradient in y| · rows, which matters for slivers.

@@ -2,6 +2,7 @@
 
 use super::interval::Interval;
 use super::linear::Range;
+use super::stated::TEXEL_NUDGE;
 use crate::picture::Picture;
 
 /// Columns and rows of a texture.
@@ -48,7 +49,7 @@ impl<'a> Texels<'a> {
     pub fn new(texture: &'a Picture, coordinates: &Range<2>, [error, noise]: [f64; 2], round: fn(f64) -> f64) -> Self {
         let longer = f64::from(texture.width.max(texture.height));
         let axis = |i: usize, size: u32| {
-            let may_be = coordinates.full[i].widened(error * longer / f64::from(size));
+            let may_be = coordinates.full[i].widened((error * longer + TEXEL_NUDGE) / f64::from(size));
             Axis::new(Interval::around(coordinates.value[i], noise), may_be, size, round)
         };
         let axes = [axis(0, texture.width), axis(1, texture.height)];

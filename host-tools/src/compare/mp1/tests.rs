@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::compare;
 use crate::compare::picture::{FixedPicture, Pixel};
-use crate::compare::stated::{SIZE_ROUNDING, SNAP};
+use crate::compare::stated::{SIZE_ROUNDING, SNAP, TEXEL_NUDGE};
 use crate::compare::{Class, Comparison};
 use crate::picture::Picture;
 use crate::reference::mp1::{Rendered, draw};
@@ -341,7 +341,7 @@ fn another_texel_only_within_delta_of_its_border() {
     // The coordinate rises by 1/4 texel per px, so that δ is δ/4 texels; the border between texels 1 and 2 is at 1.5.
     let textured = |switches: &str, off: f64| {
         let corner = |x: f64, y: f64| {
-            let texels = 1.5 + (x - 10.0) / 4.0 - off * SNAP / 4.0;
+            let texels = 1.5 + (x - 10.0) / 4.0 - off * (SNAP / 4.0 + TEXEL_NUDGE);
             format!("texcoord {:?} 0\n{}", texels / 4.0, at(x, y, 0.0))
         };
         let corners = corner(-20.0, -40.0) + &corner(79.0, 16.0) + &corner(-20.0, 72.0);
@@ -392,7 +392,7 @@ fn on_a_border_either_texel_is_explained() {
 #[test]
 fn another_texel_of_a_billboard_only_near_its_border() {
     // 4 texels on 16 px: the border between texels 1 and 2 is 6 px from the left side.
-    let by = SNAP + 1.5 * SIZE_ROUNDING;
+    let by = SNAP + 1.5 * SIZE_ROUNDING + 4.0 * TEXEL_NUDGE;
     let billboard = |off: f64| format!("texture t.png\n{}billboard 16 -1\n", at(12.0 + off * by, 15.0, 0.0));
     let next = bytes(&billboard(-0.01));
     for (off, expected) in [(0.5, Class::Texel), (0.97, Class::Texel), (1.05, Class::Unexplained)] {

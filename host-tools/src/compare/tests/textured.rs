@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::compare::stated::TEXEL_NUDGE;
 use crate::picture::Picture;
 
 /// 8 × 4 texels: red tells the column, green the row.
@@ -38,7 +39,7 @@ fn textured(at: [f64; 2], scale: f64) -> Rendered {
 fn a_coordinate_near_a_border_may_pick_the_texel_beyond() {
     for (off, expected) in [(0.5, Class::Texel), (0.99, Class::Texel), (1.02, Class::Unexplained)] {
         for scale in [0.25, 1.0, 2.0] {
-            let near = scale * off * SNAP;
+            let near = off * (scale * SNAP + TEXEL_NUDGE);
             assert_eq!(class(&textured([2.5 - near, 1.1], scale), texel(3, 1), 1), expected);
             assert_eq!(class(&textured([2.5 + near, 1.1], scale), texel(2, 1), 1), expected);
             assert_eq!(class(&textured([2.1, 1.5 - near], scale), texel(2, 2), 1), expected);
