@@ -259,7 +259,7 @@ fn nothing_is_drawn_beyond_the_depth_buffer() {
     let white = program(|_, []: [i32; 0]| Some(1u8));
     let (mut pixels, mut depths) = (picture(0u8), vec![FAR; 40 * 30]);
     let mut depth = DepthBuffer::<_, LessOrEqual>::new(Buffer::new(&mut depths, 40, 30).unwrap());
-    pipeline::triangles(&state(), &mut buffer(&mut pixels), &mut depth, &white, &all);
+    pipeline::triangles(&state(), &mut buffer(&mut pixels), &mut depth, &white, all);
     assert_eq!(course::lit(&pixels).len(), 40 * 30);
     let (mut pixels, mut depths) = (picture(0u8), vec![FAR; 40 * 30]);
     let mut depth = DepthBuffer::<_, LessOrEqual>::new(Buffer::new(&mut depths, 40, 30).unwrap());
