@@ -7,7 +7,8 @@
 //! that a strip or tile has the bits of the whole picture.
 //!
 //! **Error.** Weights and their step are cut to 2^-30 of 1, and what [slopes](mod@crate::slope) make of them is cut by
-//! four units a pixel: on a piece of 256 below 2100 units for a value of 31 bits, a sixteenth of a step of depth.
+//! four units a pixel, of a value of 31 bits by as many for its two weights: on a piece of 256 below 2100 units, little more than
+//! a sixteenth of a step of depth.
 //!
 //! **Budget.** Corners lie within ±2^23 subpixels and samples within the triangle: edge functions are below 2^50.
 

@@ -135,8 +135,8 @@ pub trait Depth {
         Some((cells, fine))
     }
 
-    /// Calls `draw` with `pixels` from the first on, up to the first whose fragment does not pass; how many are left from that one on. Depths
-    /// as in [`pass`](Self::pass).
+    /// Calls `draw` with `pixels` from the first on, up to the first whose fragment does not pass; how many are left from that
+    /// one on. Depths as in [`pass`](Self::pass).
     #[inline(always)]
     fn pass_first<'a, P>(
         cells: Self::Cells<'a>,
@@ -221,8 +221,8 @@ impl Depth for NoDepth {
 /// Depths in a [`Target`] of `u16`, 0 near, 65535 far: clear it to [`FAR`] first.
 ///
 /// Depth is linear over the screen. A depth in 0…1 is stored as the nearest of 65536 steps; the stored one is within one
-/// step of the true one on pictures within ±4096 px (half by rounding, less than a quarter by interpolation, an eighth in triangles), within 2.5
-/// on larger ones, where a row's 32-bit steps add up.
+/// step of the true one on pictures within ±4096 px (half by rounding, less than a quarter by interpolation, an eighth in
+/// triangles), within 2.5 on larger ones, where a row's 32-bit steps add up.
 ///
 /// ```
 /// use fixel::{depth::{DepthBuffer, FAR, LessOrEqual}, target::Buffer};

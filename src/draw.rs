@@ -289,8 +289,8 @@ impl<V: Varying> Inside<V> {
     }
 
     /// One span: what is hidden at its start costs the comparison and one addition for each pixel, and nothing else is looked
-    /// at before the first visible one. How many pixels are left from a hidden one on that
-    /// comes behind a visible one, or first where a [`Depth`] of one's own skips none; that one is done with.
+    /// at before the first visible one. How many pixels are left from a hidden one on that comes
+    /// behind a visible one, or first where a [`Depth`] of one's own skips none; that one is done with.
     #[inline(always)]
     fn span<C, D, F>(&self, color: &mut C, depth: &mut D, span: &Span, fragment: &F) -> usize
     where

@@ -10,8 +10,7 @@
 //! 2^up units of its value, and by the weights' cut to as much again where the value uses all of 31 bits; the value at the
 //! anchor, which is within half a column and row of the first corner, is that corner's and a part of a step, and off by less.
 //! [`Weights`] exist where rows and columns from the first corner on, the farthest of each, are together at most 1024 >> up, two of
-//! them for the anchor. A
-//! step is off by 4 times 2^up units or less, of 23 bits by little more than one. So a value of 31 bits is within 2^12 units, an
+//! them for the anchor. A step is off by 4 times 2^up units or less, of 23 bits by little more than one. So a value of 31 bits is within 2^12 units, an
 //! eighth of a step of depth, and one of 23 bits (a channel of RGB565 in 2^-16 level) within 1100 units (`tests/narrow.rs`,
 //! `tests/bounds.rs`). Whoever uses slopes leaves that much room at both ends of his range.
 

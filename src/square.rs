@@ -45,8 +45,8 @@ impl Square<Linear<2>> {
     /// With two values that run from `from` at the left and upper side to `to` at the right and lower side, |v| ≤ 2^30:
     /// texture coordinates.
     ///
-    /// The sample at column x gets from + (to − from)·(x − left)/S, with the left side as it is rounded, to one unit a column ([`Linear`]) and 2^-14 a row, and three units, so that units are
-    /// best much finer than texels over the size; half a texel is added to `from` and `to` alike.
+    /// The sample at column x gets from + (to − from)·(x − left)/S, with the left side as it is rounded, to one unit a column
+    /// ([`Linear`]) and 2^-14 a row, and three units, so that units are best much finer than texels over the size; half a texel is added to `from` and `to` alike.
     ///
     /// ```
     /// use fixel::{screen::{Center, FineDepth, SubPx}, square::Square};

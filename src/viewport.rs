@@ -213,8 +213,8 @@ impl Ratio {
         }
     }
 
-    /// Within 2 1/8 units of the true ratio, and its magnitude no larger than 2^29: the reciprocal is less than 4 units too small,
-    /// of which a quarter is left here and half at most, and the product is rounded down. 2.0077 units at worst over all w.
+    /// Within 2 1/8 units of the true ratio, and its magnitude no larger than 2^29: of what the reciprocal is too small
+    /// 1 1/8 unit is left here (its test says so), and the product is rounded down.
     #[inline(always)]
     fn of(&self, v: i32) -> i32 {
         high(v.wrapping_shl(self.shift), self.reciprocal)

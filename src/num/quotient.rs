@@ -21,7 +21,7 @@ pub struct Divisor {
     reciprocal: i32,
 }
 
-/// Units of the reciprocal that it can be off: 3.461 at worst.
+/// Units of the reciprocal that it can be off: below 4, as `recip` tests.
 const ERROR: i64 = 4;
 
 /// Bits of a quotient that [`Divisor::floor_small`] takes.

@@ -37,7 +37,7 @@ pub fn reciprocal(divisor: u32) -> u64 {
     x
 }
 
-/// 2^62 / `divisor` from below, by less than 4 units (3.461 at worst), for a normalised divisor in 2^31…2^32−1; the result lies in
+/// 2^62 / `divisor` from below, by less than 4 units, for a normalised divisor in 2^31…2^32−1; the result lies in
 /// 2^30−1…2^31−1.
 ///
 /// As [`reciprocal`], in words of 32 bits and without the last comparison: 13 instructions on Cortex-M4.
@@ -86,6 +86,23 @@ const SEEDS: [u16; 128] = {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn near_reciprocals_are_below_and_nearer() {
+        for i in 0..1u64 << 22 {
+            let divisor = (1u64 << 31 | (i * 1_000_003) & 0x7fff_ffff) as u32;
+            // In quarters of a unit: four units are not reached, with what a floor cuts off.
+            let (found, exact) = (near_reciprocal(divisor) as i64, (1u128 << 64) / divisor as u128);
+            let off = exact as i64 - 4 * found;
+            assert!((0..16).contains(&off), "{divisor}: {off} quarters of a unit off");
+            // Over 2^35 that is what a ratio of a number up to the divisor is off by, in units.
+            assert!(
+                off as u64 * divisor as u64 <= 9 << 32,
+                "{divisor}: more than 1 1/8 unit of a ratio"
+            );
+        }
+        assert_eq!(near_reciprocal(u32::MAX), (1 << 30) - 1);
+    }
 
     #[test]
     fn nearer_reciprocals_are_below_and_near() {

@@ -8,7 +8,8 @@ use crate::gradient::{Basis, Place, Plane, Ramp};
 /// N values linear over the screen, |v| ≤ 2^30 in units of the user's choice.
 ///
 /// Error along a row: one unit per pixel at most from its first covered one on, on the window or not, so that every window has
-/// the same bits, and at that one a unit and 2^-24 of the range (see [`gradient`](mod@crate::gradient)); every value lies in the range of the corners' values.
+/// the same bits, and at that one a unit and 2^-24 of the range (see [`gradient`](mod@crate::gradient)); every value
+/// lies in the range of the corners' values.
 ///
 /// ```
 /// use fixel::varying::Linear;
