@@ -115,7 +115,7 @@ enum Command {
         #[arg(long, default_value = "120x80")]
         size: String,
     },
-    /// Build the core for the bare-metal targets, with all features and with none.
+    /// Build the core for ARMv6-M, with all features and with none.
     Cross,
     /// Geometry far beyond the screen against the same picture from triangles that fit it, counted by valgrind.
     Callgrind,
