@@ -103,7 +103,7 @@ pub trait Depth {
     type Cells<'a>: Iterator<Item = Self::Cell<'a>>
     where
         Self: 'a;
-    /// The cells of a part of the window.
+    /// All cells.
     type Block<'a>
     where
         Self: 'a;
@@ -114,9 +114,9 @@ pub trait Depth {
     fn limit(&self, window: Window) -> Window;
     /// The cells of `span`.
     fn cells(&mut self, span: &Span) -> Self::Cells<'_>;
-    /// `count` cells from the first of `part` on, its rows `stride` apart; `None` where they do not lie so, or not all of them
-    /// are there. As [`Target::block`].
-    fn block(&mut self, part: &Window, stride: usize, count: usize) -> Option<Self::Block<'_>>;
+    /// The `count` cells of just this `window`, its rows `stride` apart; `None` where they are of another or lie in another way. As
+    /// [`Target::block`].
+    fn block(&mut self, window: &Window, stride: usize, count: usize) -> Option<Self::Block<'_>>;
     /// Some `count` cells of a block.
     fn block_cells<'a, 'b: 'a>(block: &'a mut Self::Block<'b>, start: usize, count: usize) -> Self::Cells<'a>
     where
@@ -270,8 +270,8 @@ impl<D: Target<Pixel = u16>, C: Comparison> Depth for DepthBuffer<D, C> {
         self.depths.span(span.row, span.left, span.right).iter_mut()
     }
     #[inline(always)]
-    fn block(&mut self, part: &Window, stride: usize, count: usize) -> Option<&mut [u16]> {
-        block(&mut self.depths, part, stride, count)
+    fn block(&mut self, window: &Window, stride: usize, count: usize) -> Option<&mut [u16]> {
+        block(&mut self.depths, window, stride, count)
     }
     #[inline(always)]
     fn block_cells<'a, 'b: 'a>(block: &'a mut &'b mut [u16], start: usize, count: usize) -> IterMut<'a, u16>
@@ -337,24 +337,18 @@ impl<D: Target<Pixel = u16>, C: Comparison> Depth for DepthBuffer<D, C> {
     }
 }
 
-/// `count` depths from the first of `part` on, where rows are `stride` apart.
+/// The `count` depths of `window`, where they are those of just that and rows are `stride` apart.
 #[inline(always)]
 fn block<'a, D: Target<Pixel = u16>>(
     depths: &'a mut D,
-    part: &Window,
+    window: &Window,
     stride: usize,
     count: usize,
 ) -> Option<&'a mut [u16]> {
-    let Window {
-        left,
-        top,
-        right,
-        bottom,
-    } = depths.window();
-    if part.left < left || part.top < top || part.right > right || part.bottom > bottom {
+    if depths.window() != *window {
         return None;
     }
-    let (block, own) = depths.block(part)?;
+    let (block, own) = depths.block()?;
     if own == stride { block.get_mut(..count) } else { None }
 }
 
@@ -547,8 +541,8 @@ impl<D: Target<Pixel = u16>> Depth for Switched<D> {
         }
     }
     #[inline(always)]
-    fn block(&mut self, part: &Window, stride: usize, count: usize) -> Option<Self::Block<'_>> {
-        Some((block(&mut self.depths, part, stride, count)?, self.options))
+    fn block(&mut self, window: &Window, stride: usize, count: usize) -> Option<Self::Block<'_>> {
+        Some((block(&mut self.depths, window, stride, count)?, self.options))
     }
     #[inline(always)]
     fn block_cells<'a, 'b: 'a>((block, options): &'a mut Self::Block<'b>, start: usize, count: usize) -> Self::Cells<'a>

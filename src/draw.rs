@@ -258,7 +258,7 @@ where
                 span = Span::new(row, *columns, &window);
                 span.left = span.right.wrapping_sub(left_over as i32).wrapping_add(1);
                 if !F::COMPACT {
-                    inside.shade_others(color, depth, &span, fragment);
+                    inside.shade_others(color, depth, &span, (span.left, row), fragment);
                     break;
                 }
             }
@@ -268,7 +268,7 @@ where
 
 /// All that is interpolated over a triangle, or a piece of its spans.
 pub(crate) struct Inside<V: Varying> {
-    /// At the picture's origin, with the half that rounds to the nearest step: modulo 2^32, where it was 0…65535 steps.
+    /// At the place that all count from, with the half that rounds to the nearest step: modulo 2^32, where it was 0…65535 steps.
     pub(crate) depth: Slope,
     pub(crate) slopes: V::Slopes,
 }
@@ -338,18 +338,14 @@ impl<V: Varying> Inside<V> {
         D: Depth,
         F: Fragment<Pixel = C::Pixel, Varying = V>,
     {
-        let part = Window {
-            top,
-            bottom: top.wrapping_add(columns.len() as i32),
-            ..*window
-        };
-        let Some((block, stride)) = color.block(&part) else {
+        let whole = color.window();
+        let Some((block, stride)) = color.block() else {
             return false;
         };
-        let Some(mut cells) = depth.block(&part, stride, block.len()) else {
+        let Some(mut cells) = depth.block(&whole, stride, block.len()) else {
             return false;
         };
-        let mut start = 0usize;
+        let mut start = (top.wrapping_sub(whole.top) as u32 as usize).wrapping_mul(stride);
         for (row, &columns) in (top..).zip(columns) {
             let span = Span::new(row, columns, window);
             if span.left < span.right {
@@ -375,19 +371,42 @@ impl<V: Varying> Inside<V> {
         self.draw_runs::<D, F>(span, pixels, cells, fragment);
     }
 
-    /// The visible runs of a span, each after its depths.
+    /// The visible runs of a span, each after its depths: most spans are one.
     #[inline(always)]
-    fn draw_runs<D, F>(&self, span: &Span, pixels: &mut [F::Pixel], mut cells: D::Cells<'_>, fragment: &F)
+    fn draw_runs<D, F>(&self, span: &Span, pixels: &mut [F::Pixel], cells: D::Cells<'_>, fragment: &F)
     where
         D: Depth,
         F: Fragment<Varying = V>,
     {
         let Ramp { value, step } = self.depth.ramp((span.left, span.row));
-        let (mut fine, step) = (value as u32, step as u32);
+        let (fine, step) = (value as u32, step as u32);
+        let (passed, others, next) = D::pass(cells, fine, step);
+        if passed == pixels.len() {
+            self.slopes.draw(span, pixels, fragment);
+        } else {
+            self.draw_others::<D, F>(span, pixels, passed, (others, next), fragment);
+        }
+    }
+
+    /// As [`draw_runs`](Self::draw_runs), of a span with hidden pixels: `passed` is how many are visible at its front, what is
+    /// left behind them is to be looked at.
+    #[inline(never)]
+    fn draw_others<D, F>(
+        &self,
+        span: &Span,
+        pixels: &mut [F::Pixel],
+        passed: usize,
+        left: (D::Cells<'_>, u32),
+        fragment: &F,
+    ) where
+        D: Depth,
+        F: Fragment<Varying = V>,
+    {
+        let step = self.depth.x as u32;
+        let (mut passed, (mut others, mut next)) = (passed, left);
         let mut run = *span;
         let mut rest = pixels;
         loop {
-            let (passed, others, next) = D::pass(cells, fine, step);
             let Some((visible, hidden)) = mem::take(&mut rest).split_at_mut_checked(passed) else {
                 return;
             };
@@ -395,28 +414,34 @@ impl<V: Varying> Inside<V> {
             if hidden.is_empty() {
                 return;
             }
-            let Some((others, next)) = D::skip(others, next, step) else {
+            let Some((cells, fine)) = D::skip(others, next, step) else {
                 return;
             };
-            let skipped = hidden.len().wrapping_sub(others.size_hint().0);
+            let skipped = hidden.len().wrapping_sub(cells.size_hint().0);
             run.left = run.left.wrapping_add(passed.wrapping_add(skipped) as i32);
             rest = hidden.get_mut(skipped..).unwrap_or_default();
-            (cells, fine) = (others, next);
+            (passed, others, next) = D::pass(cells, fine, step);
         }
     }
 
-    /// What is left of a span where something hides a pixel behind a visible one: pixel by pixel.
+    /// What is left of a span where something hides a pixel behind a visible one: pixel by pixel. `place` is where it begins.
     #[cold]
     #[inline(never)]
-    pub(crate) fn shade_others<C, D, F>(&self, color: &mut C, depth: &mut D, span: &Span, fragment: &F)
-    where
+    pub(crate) fn shade_others<C, D, F>(
+        &self,
+        color: &mut C,
+        depth: &mut D,
+        span: &Span,
+        place: (i32, i32),
+        fragment: &F,
+    ) where
         C: Target,
         D: Depth,
         F: Fragment<Pixel = C::Pixel, Varying = V>,
     {
         let Span { row, left, right, .. } = *span;
-        let mut ramps = self.slopes.ramps((left, row));
-        let Ramp { value, step } = self.depth.ramp((left, row));
+        let mut ramps = self.slopes.ramps(place);
+        let Ramp { value, step } = self.depth.ramp(place);
         let mut fine = value as u32;
         for (pixel, cell) in color.span(row, left, right).iter_mut().zip(depth.cells(span)) {
             black_box(());

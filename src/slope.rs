@@ -137,7 +137,7 @@ impl Weights {
     /// An [anchored](Self::anchored) slope from the picture's origin on, once for all of its pixels: modulo 2^32 that is the same.
     #[inline(always)]
     pub(crate) fn at_origin(&self, slope: Slope) -> Slope {
-        self.steps.at_origin(slope)
+        slope.moved_from(self.steps.pixel)
     }
 }
 
@@ -184,29 +184,40 @@ impl SmallWeights {
     /// With the first `corner`, in subpixels, and what a column and a row add, below 2^30.
     #[inline(always)]
     pub(crate) fn new(corner: (i32, i32), x: (i32, i32), y: (i32, i32)) -> Self {
-        let nearest = |v: i32| (v + SUBPIXELS / 2) >> SUBPIXEL_BITS;
         let part = |v: i32| v << (32 - SUBPIXEL_BITS) >> (32 - SUBPIXEL_BITS);
         SmallWeights {
-            pixel: (nearest(corner.0), nearest(corner.1)),
+            pixel: (Self::nearest(corner.0), Self::nearest(corner.1)),
             part: (part(corner.0), part(corner.1)),
             x,
             y,
         }
     }
 
-    /// The weights that any other triangle has.
+    /// The column, or row, whose samples are nearest to a coordinate.
+    #[inline(always)]
+    pub(crate) fn nearest(coordinate: i32) -> i32 {
+        (coordinate + SUBPIXELS / 2) >> SUBPIXEL_BITS
+    }
+
+    /// Where columns and rows count from: the anchor.
+    #[inline(always)]
+    pub(crate) fn origin(&self) -> (i32, i32) {
+        self.pixel
+    }
+
+    /// The weights that any other triangle has, with the anchor as the origin.
     #[inline(always)]
     pub(crate) fn wide(&self) -> Weights {
         Weights {
-            steps: *self,
+            steps: SmallWeights { pixel: (0, 0), ..*self },
             up: SMALL_UP,
         }
     }
 
-    /// The slope through `values` at the triangle's corners, each less than 2^31 from the first.
+    /// The slope through `values` at the triangle's corners, each less than 2^31 from the first, from the anchor on.
     #[inline(always)]
     pub(crate) fn slope(&self, values: [i32; 3]) -> Slope {
-        self.at_origin(self.anchored(values, SMALL_UP))
+        self.anchored(values, SMALL_UP)
     }
 
     /// The same from the anchor pixel on, where steps are of 2^`up` units. |weights| ≤ 2^30: steps are below 2^31.
@@ -236,12 +247,6 @@ impl SmallWeights {
             x,
             y,
         }
-    }
-
-    /// As [`Weights::at_origin`].
-    #[inline(always)]
-    pub(crate) fn at_origin(&self, slope: Slope) -> Slope {
-        slope.moved_from(self.pixel)
     }
 }
 
@@ -314,7 +319,7 @@ pub trait Slopes<V: Varying>: Sized {
 
     /// Set up once per triangle; `None` where a varying has no use for weights.
     fn new(weights: &Weights, corners: [V; 3]) -> Option<Self>;
-    /// As [`new`](Self::new), of a triangle below 16 columns and rows.
+    /// As [`new`](Self::new), of a triangle below 16 columns and rows; places then count from the weights' anchor.
     #[inline(always)]
     fn small(weights: &SmallWeights, corners: [V; 3]) -> Option<Self> {
         Self::new(&weights.wide(), corners)

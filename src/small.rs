@@ -8,8 +8,9 @@
 //! same for all that is drawn, finds the rows' spans, and tells at once where there are none. A side is followed by a step per
 //! row from two divisions where the core divides, else by steps of a column.
 //!
-//! Both buffers are then looked at once for each triangle, as blocks of rows. Where a triangle crosses the left or right side
-//! of the window, or rows do not lie at one distance, its spans are drawn one by one.
+//! Both buffers are then looked at once for each triangle, as blocks of rows: places are compared with their ends once for each
+//! row. Where a triangle crosses the left or right side of the window, or the buffers are of different windows or their rows do
+//! not lie at one distance, its spans are drawn one by one.
 //!
 //! **Cost** on Cortex-M4, with colours and depth: some 270 instructions for what is covered, 65 for the weights, 115 for the
 //! values, 110 around them; then 26 for each row, of which 12 are for its span, 31 more for each that is drawn, and 18 for each
@@ -71,7 +72,7 @@ where
         (false, false) => find::<false, Stepped>,
     };
     let found = find(&corners, &color.window(), &mut spans);
-    let Found::Rows { part, weights, .. } = &found else {
+    let Found::Rows { weights, .. } = &found else {
         return matches!(found, Found::Nothing);
     };
     // Looked at in place: taken out of its option, it would be copied.
@@ -80,12 +81,12 @@ where
         return false;
     };
     if !paint_block(inside, color, depth, &found, &spans, fragment) {
-        paint_rows(inside, color, depth, part, &spans, fragment);
+        paint_rows(inside, color, depth, &found, &spans, fragment);
     }
     true
 }
 
-/// All that is interpolated over a small triangle, from the first sample of its box on.
+/// All that is interpolated over a small triangle, from the weights' origin on.
 #[inline(always)]
 fn values<D: Depth, S: Shape>(weights: &SmallWeights, shape: &S) -> Option<Inside<S::Varying>> {
     let mut depth = Slope::default();
@@ -101,7 +102,7 @@ fn values<D: Depth, S: Shape>(weights: &SmallWeights, shape: &S) -> Option<Insid
     })
 }
 
-/// Draws the `spans` of what was found; whether that is all on the window and the targets have blocks.
+/// Draws the `spans` of what was found; whether that is all on the window and the targets have blocks of the same shape.
 #[inline(always)]
 fn paint_block<C, D, F>(
     inside: &Inside<F::Varying>,
@@ -116,50 +117,78 @@ where
     D: Depth,
     F: Fragment<Pixel = C::Pixel>,
 {
-    let Found::Rows { part, whole: true, .. } = found else {
+    let Found::Rows {
+        top,
+        bottom,
+        whole: true,
+        weights,
+    } = *found
+    else {
         return false;
     };
-    let Some((block, stride)) = color.block(part) else {
+    let window = color.window();
+    let Some((block, stride)) = color.block() else {
         return false;
     };
-    let Some(mut cells) = depth.block(part, stride, block.len()) else {
+    let Some(mut cells) = depth.block(&window, stride, block.len()) else {
         return false;
     };
-    let Some(spans) = spans.get(..(part.bottom - part.top) as usize) else {
+    let Some(spans) = spans.get(..(bottom - top) as usize) else {
         return false;
     };
     // Read where it is, row by row: kept, it would take registers, or be stored a second time.
     let inside = black_box(inside);
-    let mut start = 0;
-    for (row, &span) in (part.top..).zip(spans) {
-        let [from, count] = span.to_le_bytes().map(usize::from);
+    let origin = weights.origin();
+    // Wrapping: the origin's column may lie left of the window.
+    let mut start = (top.wrapping_sub(window.top) as usize).wrapping_mul(stride);
+    start = start.wrapping_add(origin.0.wrapping_sub(window.left) as usize);
+    for (row, &span) in (top - origin.1..).zip(spans) {
+        let (from, count) = columns(span);
+        let first = start.wrapping_add(from as usize);
+        let count = count as usize;
         if count != 0
-            && let Some(rest) = block.get_mut(start + from..)
+            && let Some(rest) = block.get_mut(first..)
             && let Some(pixels) = rest.get_mut(..count)
             && (D::ENABLED || !fragment.fill(pixels))
         {
-            let place = (part.left + from as i32, row);
-            let (mut ramps, depth_ramp) = (inside.slopes.ramps(place), inside.depth.ramp(place));
-            let mut fine = depth_ramp.value as u32;
-            let cells = D::block_cells(&mut cells, start + from, count);
-            for (pixel, cell) in pixels.iter_mut().zip(cells) {
-                if D::test(cell, fine >> 15) {
-                    if let Some(new) = fragment.shade(inside.slopes.values(&ramps), *pixel) {
-                        *pixel = new;
-                    }
-                    fine = fine.wrapping_add(depth_ramp.step as u32);
-                    F::Varying::advance(&mut ramps);
-                    single(());
-                } else {
-                    fine = fine.wrapping_add(depth_ramp.step as u32);
-                    F::Varying::advance(&mut ramps);
-                    hidden(());
-                }
-            }
+            let cells = D::block_cells(&mut cells, first, count);
+            paint_row::<D, F>(inside, pixels, cells, (from, row), fragment);
         }
         start = start.wrapping_add(stride);
     }
     true
+}
+
+/// All of `pixels` from a place on: after the last of them nothing is stepped, since rows have but two or three.
+#[inline(always)]
+fn paint_row<D, F>(
+    inside: &Inside<F::Varying>,
+    pixels: &mut [F::Pixel],
+    cells: D::Cells<'_>,
+    place: (i32, i32),
+    fragment: &F,
+) where
+    D: Depth,
+    F: Fragment,
+{
+    let (mut ramps, depth_ramp) = (inside.slopes.ramps(place), inside.depth.ramp(place));
+    let mut fine = depth_ramp.value as u32;
+    let mut fragments = pixels.iter_mut().zip(cells);
+    let mut next = fragments.next();
+    while let Some((pixel, cell)) = next {
+        if D::test(cell, fine >> 15)
+            && let Some(new) = fragment.shade(inside.slopes.values(&ramps), *pixel)
+        {
+            *pixel = new;
+        }
+        next = fragments.next();
+        if next.is_none() {
+            return;
+        }
+        fine = fine.wrapping_add(depth_ramp.step as u32);
+        F::Varying::advance(&mut ramps);
+        single(());
+    }
 }
 
 /// As [`paint_block`], row by row: the same bits on any window and target.
@@ -169,7 +198,7 @@ fn paint_rows<C, D, F>(
     inside: &Inside<F::Varying>,
     color: &mut C,
     depth: &mut D,
-    part: &Window,
+    found: &Found,
     spans: &Spans,
     fragment: &F,
 ) where
@@ -177,21 +206,23 @@ fn paint_rows<C, D, F>(
     D: Depth,
     F: Fragment<Pixel = C::Pixel>,
 {
+    let Found::Rows {
+        top, bottom, weights, ..
+    } = found
+    else {
+        return;
+    };
     let window = depth.limit(color.window());
-    for (row, &span) in (part.top..part.bottom).zip(spans) {
-        let [from, count] = span.to_le_bytes().map(i32::from);
-        let span = Span::new(row, (part.left + from, part.left + from + count), &window);
+    let origin = weights.origin();
+    for (row, &span) in (*top..*bottom).zip(spans) {
+        let (from, count) = columns(span);
+        let from = origin.0 + from;
+        let span = Span::new(row, (from, from + count), &window);
         if span.left < span.right && (window.top..window.bottom).contains(&row) {
-            inside.shade_others(color, depth, &span, fragment);
+            let place = (span.left - origin.0, row - origin.1);
+            inside.shade_others(color, depth, &span, place, fragment);
         }
     }
-}
-
-/// As [`single`], another one: so the way around a hidden pixel stays apart, and a visible one does not jump back.
-#[inline(always)]
-fn hidden(nothing: ()) {
-    black_box(nothing);
-    black_box(nothing);
 }
 
 /// Keeps a loop from being unrolled or computed ahead: no instruction, but one that a compiler takes for a call.
@@ -200,9 +231,15 @@ fn single(nothing: ()) {
     black_box(nothing);
 }
 
-/// Of each row, from the top, the first column of its span, counted from the box's left, in the lower byte, and in the upper
-/// one how many there are.
+/// Of each row, from the top, the first column of its span in six bits, with a sign, and in the upper byte how many there are.
+/// Columns count from the [origin](SmallWeights::origin), which is at most 16 from any.
 type Spans = [u16; REACH as usize];
+
+/// The first column of a span and how many there are.
+#[inline(always)]
+fn columns(span: u16) -> (i32, i32) {
+    ((span as i32) << FRACTION >> FRACTION, (span >> 8) as i32)
+}
 
 /// What there is to draw.
 enum Found {
@@ -210,9 +247,10 @@ enum Found {
     Nothing,
     /// A triangle that is not for this walk, whatever the window.
     Large,
-    /// As much of the triangle's box as the window has rows; whether it has all of its columns.
+    /// Those of the triangle that the window has; whether it has all of its columns.
     Rows {
-        part: Window,
+        top: i32,
+        bottom: i32,
         whole: bool,
         weights: SmallWeights,
     },
@@ -252,7 +290,8 @@ fn find<const CARRIES: bool, E: Side>(corners: &[Point; 3], window: &Window, spa
         whole = left >= window.left && right <= window.right;
     }
     let middle = first_row(b.1);
-    let (long, upper) = (E::new(a, c, left), E::new(a, b, left));
+    let origin = SmallWeights::nearest(corners[0].0);
+    let (long, upper) = (E::new(a, c, origin), E::new(a, b, origin));
     let long_is_left = (b.0 - a.0) * (c.1 - a.1) > (c.0 - a.0) * (b.1 - a.1);
     let (mut one, mut two) = if long_is_left { (long, upper) } else { (upper, long) };
     let Some((above, below)) = spans.split_at_mut_checked((middle - first) as usize) else {
@@ -260,7 +299,7 @@ fn find<const CARRIES: bool, E: Side>(corners: &[Point; 3], window: &Window, spa
     };
     let mut any = walk(&mut one, &mut two, above);
     if let Some(below) = below.get_mut(..(end - middle) as usize) {
-        let lower = E::new(b, c, left);
+        let lower = E::new(b, c, origin);
         if long_is_left {
             two = lower;
         } else {
@@ -274,11 +313,16 @@ fn find<const CARRIES: bool, E: Side>(corners: &[Point; 3], window: &Window, spa
     if part.top > first {
         skip(spans, (part.top - first) as usize, (end - part.top).max(0) as usize);
     }
-    let mut weights = SmallWeights::default();
+    let mut weights = SmallWeights::new(corners[0], (0, 0), (0, 0));
     if CARRIES && !lay(&mut weights, corners, extent) {
         return Found::Large;
     }
-    Found::Rows { part, whole, weights }
+    Found::Rows {
+        top: part.top,
+        bottom: part.bottom,
+        whole,
+        weights,
+    }
 }
 
 /// Whether something of `part` is off `window`, or it is empty on one side.
@@ -300,7 +344,7 @@ fn walk<E: Side>(left: &mut E, right: &mut E, spans: &mut [u16]) -> i32 {
     for span in spans {
         let (from, to) = (left.column(), right.column());
         let count = to - from;
-        *span = (from | count << 8) as u16;
+        *span = (from as u16 & 63) | (count << 8) as u16;
         any |= count;
         // Both where they are, then both one row on: in between, there would be old ones to keep.
         single(());

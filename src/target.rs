@@ -65,11 +65,10 @@ pub trait Target {
             .unwrap_or_default()
     }
 
-    /// The pixels of `part`, a part of the window that is not empty, from its first to its last, with what lies between its
-    /// rows, and how many there are from one row to the next. `None` where rows do not lie at one distance; triangles of a few
-    /// pixels are drawn faster where they do.
+    /// All pixels of the window, from its first to its last, with what lies between its rows, and how many there are from one
+    /// row to the next. `None` where rows do not lie at one distance; what is drawn there is drawn faster where they do.
     #[inline(always)]
-    fn block(&mut self, _part: &Window) -> Option<(&mut [Self::Pixel], usize)> {
+    fn block(&mut self) -> Option<(&mut [Self::Pixel], usize)> {
         None
     }
 }
@@ -91,8 +90,8 @@ impl<C: Target + ?Sized> Target for &mut C {
         (**self).span(row, left, right)
     }
     #[inline(always)]
-    fn block(&mut self, part: &Window) -> Option<(&mut [C::Pixel], usize)> {
-        (**self).block(part)
+    fn block(&mut self) -> Option<(&mut [C::Pixel], usize)> {
+        (**self).block()
     }
 }
 
@@ -108,6 +107,7 @@ impl<C: Target + ?Sized> Target for &mut C {
 /// ```
 #[derive(Debug)]
 pub struct Buffer<'a, P> {
+    /// Those of the window and no more, so that two buffers of one window and stride are of one length.
     pixels: &'a mut [P],
     stride: usize,
     window: Window,
@@ -126,9 +126,9 @@ impl<'a, P: Copy> Buffer<'a, P> {
         }
         let stride = width as usize;
         // At most 2^30.
-        if stride * height as usize > pixels.len() {
-            return Err(Error::BufferTooSmall);
-        }
+        let pixels = pixels
+            .get_mut(..stride * height as usize)
+            .ok_or(Error::BufferTooSmall)?;
         let window = Window::new(0, 0, width as i32, height as i32);
         Ok(Buffer { pixels, stride, window })
     }
@@ -163,9 +163,16 @@ impl<'a, P: Copy> Buffer<'a, P> {
         let needed = stride
             .checked_mul(rows_before_last)
             .and_then(|n| n.checked_add(window.width()));
-        if stride < window.width() || !window.is_empty() && needed.is_none_or(|n| n > pixels.len()) {
+        if stride < window.width() {
             return Err(Error::BufferTooSmall);
         }
+        let pixels = if window.is_empty() {
+            &mut []
+        } else {
+            needed
+                .and_then(|needed| pixels.get_mut(..needed))
+                .ok_or(Error::BufferTooSmall)?
+        };
         Ok(Buffer { pixels, stride, window })
     }
 }
@@ -205,15 +212,8 @@ impl<P: Copy> Target for Buffer<'_, P> {
     }
 
     #[inline(always)]
-    fn block(&mut self, part: &Window) -> Option<(&mut [P], usize)> {
-        let row = part.top.wrapping_sub(self.window.top) as usize;
-        let start = row.wrapping_mul(self.stride);
-        let start = start.wrapping_add(part.left.wrapping_sub(self.window.left) as u32 as usize);
-        let rows_before_last = part.bottom.wrapping_sub(part.top).wrapping_sub(1) as u32 as usize;
-        let width = part.right.wrapping_sub(part.left) as u32 as usize;
-        let len = rows_before_last.wrapping_mul(self.stride).wrapping_add(width);
-        let block = self.pixels.get_mut(start..)?.get_mut(..len)?;
-        Some((block, self.stride))
+    fn block(&mut self) -> Option<(&mut [P], usize)> {
+        Some((self.pixels, self.stride))
     }
 }
 

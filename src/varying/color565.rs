@@ -96,16 +96,16 @@ impl Slopes<Color565> for Color565Slopes {
         let (red, blue) = (weights.short::<7>([ra, rb, rc]), weights.short::<7>([ba, bb, bc]));
         let green = weights.short::<8>([ga, gb, gc]);
         Some(Color565Slopes {
-            pair: weights.at_origin(Slope {
+            pair: Slope {
                 value: pair(red.value, blue.value),
                 x: pair(red.x, blue.x),
                 y: pair(red.y, blue.y),
-            }),
-            green: weights.at_origin(Slope {
+            },
+            green: Slope {
                 value: green.value << 5,
                 x: green.x << 5,
                 y: green.y << 5,
-            }),
+            },
         })
     }
     #[inline(always)]
