@@ -12,9 +12,9 @@
 //! row. Where a triangle crosses the left or right side of the window, or the buffers are of different windows or their rows do
 //! not lie at one distance, its spans are drawn one by one.
 //!
-//! **Cost** on Cortex-M4, with colours and depth: some 270 instructions for what is covered, 65 for the weights, 115 for the
-//! values, 110 around them; then 26 for each row, of which 12 are for its span, 31 more for each that is drawn, and 18 for each
-//! pixel.
+//! **Cost** on Cortex-M4, with colours and depth: some 255 instructions for what is covered, 60 for the weights, 120 for the
+//! values, 90 around them; then 22 for each row, of which 10 are for its span, 29 more for each that is drawn, and 19 for each
+//! pixel, but 13 for the last of a row.
 //!
 //! **Error**: weights are in units of 2^-27 whatever the triangle's size, `up` 5 as [slopes](mod@crate::slope) have it: a step
 //! is off by 128 units of a value of 31 bits. There are no more than 32 rows and columns, and half a step of each from the first
