@@ -410,7 +410,9 @@ impl<V: Varying> Inside<V> {
             let Some((visible, hidden)) = mem::take(&mut rest).split_at_mut_checked(passed) else {
                 return;
             };
-            self.slopes.draw(&run, visible, fragment);
+            if !visible.is_empty() {
+                self.slopes.draw(&run, visible, fragment);
+            }
             if hidden.is_empty() {
                 return;
             }
