@@ -2,16 +2,18 @@
 //! their stated errors, the same bits in any window and target.
 
 mod naive;
+mod row_by_row;
 
 use fixel::depth::{Always, DepthBuffer, FAR, NoDepth};
 use fixel::draw;
 use fixel::fragment::{Flat, Gouraud565};
 use fixel::screen::{Corner, FineDepth, Position, SubPx};
 use fixel::span::doubled_area;
-use fixel::target::{Buffer, Target};
+use fixel::target::Buffer;
 use fixel::varying::{Color565, Varying};
 use fixel::window::Window;
 use naive::Point;
+use row_by_row::RowByRow;
 
 /// From the first corner to the others: triangles count as small below 16 columns and rows, so that some are not.
 const REACH: i32 = 4096;
@@ -228,20 +230,6 @@ fn any_window_has_the_same_bits() {
         assert_eq!(found, expected, "case {case}: {points:?} in {part:?}");
     }
     assert!(samples > 30_000, "{samples}");
-}
-
-/// A picture that lends its rows, but no block of them.
-struct RowByRow<'a>(Buffer<'a, u16>);
-
-impl Target for RowByRow<'_> {
-    type Pixel = u16;
-
-    fn window(&self) -> Window {
-        self.0.window()
-    }
-    fn row(&mut self, row: i32) -> &mut [u16] {
-        self.0.row(row)
-    }
 }
 
 #[test]

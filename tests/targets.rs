@@ -2,6 +2,8 @@
 //! Where they go together triangles are drawn by blocks, where not row by row; the bits are the same, and nothing else is
 //! touched.
 
+mod row_by_row;
+
 use fixel::depth::{DepthBuffer, FAR, LessOrEqual};
 use fixel::draw;
 use fixel::fragment::{Fragment, Gouraud565};
@@ -11,6 +13,7 @@ use fixel::texture::Tiled565;
 use fixel::varying::{Color565, Perspective, Perspective32, PerspectiveSpans, Varying};
 use fixel::window::Window;
 use proptest::prelude::*;
+use row_by_row::RowByRow;
 
 /// What is in memory that nothing is drawn to.
 const UNTOUCHED: u16 = 0x5a5a;
@@ -52,20 +55,6 @@ impl Layout {
         (inner.top..inner.bottom).flat_map(move |y| {
             (inner.left..inner.right).map(move |x| (y - top) as usize * self.stride() + (x - left) as usize)
         })
-    }
-}
-
-/// A picture that lends its rows, but no block of them.
-struct RowByRow<'a>(Buffer<'a, u16>);
-
-impl Target for RowByRow<'_> {
-    type Pixel = u16;
-
-    fn window(&self) -> Window {
-        self.0.window()
-    }
-    fn row(&mut self, row: i32) -> &mut [u16] {
-        self.0.row(row)
     }
 }
 
