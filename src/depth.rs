@@ -224,6 +224,9 @@ impl Depth for NoDepth {
 /// step of the true one on pictures within ±4096 px (half by rounding, less than a quarter by interpolation, an eighth in
 /// triangles), within 2.5 on larger ones, where a row's 32-bit steps add up.
 ///
+/// Of any window: what it shares with the picture's is drawn. Triangles are drawn fastest where both have one window and stride
+/// ([`Target::block`]).
+///
 /// ```
 /// use fixel::{depth::{DepthBuffer, FAR, LessOrEqual}, target::Buffer};
 /// let mut memory = [FAR; 16 * 16];

@@ -263,7 +263,8 @@ pub(crate) fn normalized(magnitude: u64) -> (u32, i32) {
     }
 }
 
-/// A value over a triangle: at the picture's origin, and what a column and a row add; modulo 2^32.
+/// A value over a triangle: at its origin, and what a column and a row add; modulo 2^32. The origin is the picture's, but the
+/// [anchor](SmallWeights) of a small triangle.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Slope {
     /// At the origin.
@@ -275,7 +276,7 @@ pub struct Slope {
 }
 
 impl Slope {
-    /// Along a row from a pixel on: columns and rows from the picture's origin.
+    /// Along a row from a pixel on: columns and rows from the origin.
     #[inline(always)]
     pub fn ramp(&self, (columns, rows): (i32, i32)) -> Ramp<i32> {
         let value = self.value.wrapping_add(self.y.wrapping_mul(rows));
