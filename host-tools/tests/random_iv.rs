@@ -15,6 +15,14 @@ use fixel_host::scene::iv::{
 const SIZE: u32 = 64;
 const SCENES: u64 = 120;
 
+/// Scenes that had differences which nothing explained, of 90,000: colours of faces that end far off the picture.
+const FORMER: [(&str, u64); 4] = [
+    ("inside_the_model", 10_450),
+    ("inside_the_model", 10_825),
+    ("inside_the_model", 13_054),
+    ("inside_the_model", 14_053),
+];
+
 /// A small generator (xorshift64*), so that scenes stay the same whatever crates do.
 struct Random(u64);
 
@@ -175,7 +183,8 @@ fn compared(kind: &str, excused: u64, model: impl Fn(&mut Random) -> Model) -> V
 fn sized(kind: &str, excused: u64, model: impl Fn(&mut Random) -> (u32, u32, Model)) -> Vec<Comparison> {
     let mut all = Vec::new();
     let mut bad = Vec::new();
-    for seed in 0..SCENES {
+    let former = FORMER.iter().filter(|(of, _)| *of == kind).map(|(_, seed)| *seed);
+    for seed in (0..SCENES).chain(former) {
         let mut random = Random::new(kind, seed);
         let (width, height, model) = model(&mut random);
         let scene = Scene {
@@ -212,8 +221,9 @@ fn sized(kind: &str, excused: u64, model: impl Fn(&mut Random) -> (u32, u32, Mod
     let some = bad.iter().take(5).map(String::as_str).collect::<Vec<_>>().join("\n");
     assert!(
         bad.is_empty(),
-        "unexplained in {} of {SCENES} scenes:\n{some}",
-        bad.len()
+        "unexplained in {} of {} scenes:\n{some}",
+        bad.len(),
+        all.len()
     );
     assert!(drawn > 300 * SCENES, "{kind}: {drawn} pixels are too few to tell");
     assert!(hidden * excused < drawn, "{kind}: {hidden} of {drawn} pixels excused");

@@ -17,6 +17,15 @@ use rayon::prelude::*;
 
 const SCENES: u64 = 150;
 
+/// Scenes that had differences which nothing explained, of 75,000: textures far off the picture without `hyp`, and corners that
+/// clipping made.
+const FORMER: [(&str, u64); 4] = [
+    ("enormous", 10_519),
+    ("enormous", 13_607),
+    ("signs_of_w_mixed_and_clip_planes", 11_422),
+    ("signs_of_w_mixed_and_clip_planes", 13_446),
+];
+
 /// A small generator (xorshift64*), so that scenes stay the same whatever crates do.
 struct Random(u64);
 
@@ -230,7 +239,9 @@ fn compared(kind: &str, excused: u64, make: impl Fn(&mut Random) -> Scene + Sync
         });
         (comparison, bad)
     };
-    let (all, bad): (Vec<Comparison>, Vec<Option<String>>) = (0..SCENES).into_par_iter().map(draw).unzip();
+    let former = FORMER.iter().filter(|(of, _)| *of == kind).map(|(_, seed)| *seed);
+    let seeds: Vec<u64> = (0..SCENES).chain(former).collect();
+    let (all, bad): (Vec<Comparison>, Vec<Option<String>>) = seeds.into_par_iter().map(draw).unzip();
     let bad: Vec<String> = bad.into_iter().flatten().collect();
     let sum = |of: &dyn Fn(&Comparison) -> u64| all.iter().map(of).sum::<u64>();
     let drawn = sum(&|c| c.pixels_drawn);
@@ -250,8 +261,9 @@ fn compared(kind: &str, excused: u64, make: impl Fn(&mut Random) -> Scene + Sync
     let some = bad.iter().take(5).map(String::as_str).collect::<Vec<_>>().join("\n");
     assert!(
         bad.is_empty(),
-        "unexplained in {} of {SCENES} scenes:\n{some}",
-        bad.len()
+        "unexplained in {} of {} scenes:\n{some}",
+        bad.len(),
+        all.len()
     );
     assert!(drawn > 200 * SCENES, "{kind}: {drawn} pixels are too few to tell");
     assert!(hidden * excused < drawn, "{kind}: {hidden} of {drawn} pixels excused");

@@ -13,7 +13,9 @@ use crate::num::reciprocal;
 ///
 /// **Error**: 1/w and value/w are within 2^-27 of their largest corner value, and value/w is rounded to a unit at the
 /// corners. With ρ the largest 1/w of the polygon over that of the pixel, the value is within
-/// ρ·(2^-26·largest + 1) + 3 units + 2^-30·|value| (`tests/interpolation.rs`).
+/// ρ·(2^-26·largest + 1) + 3 units + 2^-30·|value| (`tests/interpolation.rs`). That is from the plane through three corners: where
+/// a polygon has a fourth that rounding took off it, and a row would leave the corners' range there, all of the row is moved to stay
+/// in it, 1/w and each value/w by itself, and the quotient by what they differ.
 ///
 /// ```
 /// use fixel::varying::Perspective;

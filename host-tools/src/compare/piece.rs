@@ -8,6 +8,8 @@
 //! A clipped polygon of n corners has its values from the largest triangle of its fan alone, and a sample outside that one
 //! has weights of both signs: at most one is negative, and at least -(n - 3), since no triangle of the fan is larger.
 //! So Σ|b| ≤ 2n - 5 =: spread, and the displacement is at most spread · δ. The corners' range still holds: the core clamps to it.
+//! To do so it moves a row's values as a whole, those of N and of Q each by itself, wherever one end of the row would leave the range
+//! ([`Piece::kept`]).
 
 use std::array::from_fn;
 
@@ -45,6 +47,8 @@ pub struct Piece<'a> {
     walk: f64,
     /// Stepping of the core's depth along a row, in z/w.
     depth_steps: f64,
+    /// Half the side of the guard band.
+    guard: f64,
 }
 
 impl<'a> Piece<'a> {
@@ -53,7 +57,9 @@ impl<'a> Piece<'a> {
         let size = screen.size;
         let fit = Fit::through(&corners, size);
         let guard = guard(size);
-        let mut greatest_q = Interval::of(corners.map(|c| c.w.recip().abs())).high;
+        // What shares its values with a far corner has the units that this one needs.
+        let sharing = if outline.fanned { &corners[..] } else { &outline.outer };
+        let mut greatest_q = Interval::of(sharing.iter().map(|c| c.w.recip().abs())).high;
         if let Some(fit) = fit {
             let band = [[-guard, -guard], [guard, -guard], [-guard, guard], [guard, guard]];
             greatest_q = greatest_q.min(Interval::of(band.map(|p| fit.q.at(p).abs())).high);
@@ -71,6 +77,7 @@ impl<'a> Piece<'a> {
             spread: (2 * count - 5) as f64,
             walk: (size[0] + size[1] + 8.0) * f64::EPSILON,
             depth_steps: DEPTH_PER_COLUMN * (extents[0] + 8.0) * screen.depth_step(),
+            guard,
         }
     }
 
@@ -131,7 +138,8 @@ impl<'a> Piece<'a> {
         let own = numerators.zip(self.fit.as_ref()).map(|(n, fit)| quotients(n, fit));
         let value = known.or(own).unwrap_or([f64::NAN; N]);
         let moved = from_fn(|i| {
-            let free = self.along(p, numerators.map(|n| n[i]), value[i], least);
+            let range = Interval::of(self.sharing().map(|c| of(c)[i] / c.w));
+            let free = self.along(p, numerators.map(|n| (n[i], range)), value[i], least);
             let range = Interval::of(self.corners.iter().map(|c| of(c)[i]));
             if self.outline.mixed { free } else { free.clamped(range) }
         });
@@ -189,17 +197,77 @@ impl<'a> Piece<'a> {
         (relative * self.greatest_q * greatest + swing) / least
     }
 
-    /// N/Q and what moving by δ makes of it: |∇N - v ∇Q| δ over the least Q within δ.
-    fn along(&self, p: [f64; 2], numerator: Option<Linear>, value: f64, least: f64) -> Interval {
-        let Some((n, fit)) = numerator.zip(self.fit) else {
+    /// N/Q and what moving by δ makes of it: |∇N - v ∇Q| δ over the least Q within δ. `numerator` with the corners' range.
+    fn along(&self, p: [f64; 2], numerator: Option<(Linear, Interval)>, value: f64, least: f64) -> Interval {
+        let Some(((n, range), fit)) = numerator.zip(self.fit) else {
             return Interval::ALL;
         };
         let moved = self.spread * self.reach(p);
-        if fit.q.at(p).abs() <= fit.q.slope() * moved {
+        let q_range = Interval::of(self.sharing().map(|c| 1.0 / c.w));
+        let (kept, kept_q) = (self.kept(p, &n, range), self.kept(p, &fit.q, q_range));
+        if fit.q.at(p).abs() <= fit.q.slope() * moved || least <= kept_q {
             return Interval::ALL;
         }
         let along = [0, 1].map(|i| n.gradient[i] - value * fit.q.gradient[i]);
-        Interval::around(value, along[0].hypot(along[1]) * moved / least)
+        let by = along[0].hypot(along[1]) * moved + kept + value.abs() * kept_q;
+        Interval::around(value, by / (least - kept_q))
+    }
+
+    /// By how much the core may move the values of the sample's row to keep its ends within the corners' `range`: by as much as a
+    /// corner that the plane is not laid through, which moves by δ as those do, may be off it. Of three corners there is none.
+    fn kept(&self, p: [f64; 2], function: &Linear, range: Interval) -> f64 {
+        if self.spread <= 1.0 {
+            return 0.0;
+        }
+        let reach = Interval::of(self.outline.outer.iter().map(|c| c.reach)).high;
+        // The plane there, the corner itself, and where the row ends.
+        let most = function.slope() * (self.spread + 2.0) * reach;
+        let Some(ends) = self.row(p[1], reach) else {
+            return most;
+        };
+        let beyond = |x: f64| {
+            let value = function.at([x, p[1]]);
+            (value - range.high).max(range.low - value) + most
+        };
+        beyond(ends[0]).max(beyond(ends[1])).clamp(0.0, most)
+    }
+
+    /// Where the polygon begins and ends in the rows within `reach` of y; none where the guard band may cut it, and has corners of
+    /// its own.
+    fn row(&self, y: f64, reach: f64) -> Option<[f64; 2]> {
+        let corners = &self.outline.outer;
+        if corners.iter().flat_map(|c| c.position).any(|x| x.abs() > self.guard) {
+            return None;
+        }
+        let mut row = [f64::INFINITY, f64::NEG_INFINITY];
+        for (i, a) in corners.iter().enumerate() {
+            let (a, b) = (a.position, corners[(i + 1) % corners.len()].position);
+            let [top, bottom] = [a[1].min(b[1]), a[1].max(b[1])];
+            if bottom < y - reach || top > y + reach {
+                continue;
+            }
+            for end in [y - reach, y + reach].map(|y| y.clamp(top, bottom)) {
+                let part = if a[1] == b[1] {
+                    [0.0, 1.0]
+                } else {
+                    [(end - a[1]) / (b[1] - a[1]); 2]
+                };
+                for x in part.map(|t| a[0] + t * (b[0] - a[0])) {
+                    row = [row[0].min(x), row[1].max(x)];
+                }
+            }
+        }
+        Some(row).filter(|row| row[0] <= row[1])
+    }
+
+    /// The corners that have one plane of values.
+    fn sharing(&self) -> impl Iterator<Item = &Corner> {
+        let corners = if self.outline.fanned {
+            &self.corners[..]
+        } else {
+            &self.outline.outer
+        };
+        corners.iter()
     }
 
     /// The least |1/w| within δ of a sample; with one sign it is never below the corners' least.

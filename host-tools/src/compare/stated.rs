@@ -95,7 +95,8 @@ pub const WORLD_UNIT: f64 = 1.0 / (1u64 << 28) as f64;
 /// `.iv`: a colour is rounded to 2⁻¹⁶ level before it is cut off to a byte; in levels.
 pub const WORLD_LEVEL: f64 = 1.0 / (1u64 << 17) as f64;
 
-/// `.iv`: interpolated colours are carried in quarters of [`WORLD_UNIT`], of which each pixel of a row may lose one.
+/// `.iv`: interpolated colours are carried in quarters of [`WORLD_UNIT`], of which each pixel of a row, on the picture or not, may
+/// lose one.
 pub const WORLD_PER_COLUMN: f64 = WORLD_UNIT / 4.0;
 
 /// `.iv`: error of k = n·h beyond [`COSINE`], times |unit(e − v) + unit(L − v)|, as `fixel::light::world` states it.

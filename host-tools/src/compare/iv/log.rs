@@ -6,7 +6,7 @@ use super::lighting::{Lighting, Place};
 use super::look::Paint;
 use crate::compare::direction::Direction;
 use crate::compare::interval::Interval;
-use crate::compare::stated::{FIXED_PRODUCT, FLOAT_PRODUCT, UNIT_VECTOR, WORLD_PER_COLUMN};
+use crate::compare::stated::{FIXED_PRODUCT, FLOAT_PRODUCT, UNIT_VECTOR};
 use crate::reference::attributes::{Attributes, Bounds, CARRIED};
 use crate::reference::bound::{Tracked, cancellation, size};
 use crate::reference::clip::{Corner as ClipCorner, Over, Plane};
@@ -92,11 +92,7 @@ impl Log<'_> {
                 let (color, error) = mean_color(corners, lighting);
                 (Paint::Flat { color, error }, color)
             }
-            Shading::Gouraud => {
-                // A unit for each column, up to four for the row, and four that are cut off.
-                let stepping = WORLD_PER_COLUMN * (self.screen.size[0] + 8.0);
-                (Paint::Gouraud { stepping }, [0.0; 3])
-            }
+            Shading::Gouraud => (Paint::Gouraud, [0.0; 3]),
             Shading::Phong => (
                 Paint::Phong {
                     lighting: Arc::clone(lighting),

@@ -9,7 +9,7 @@ use crate::compare::interval::Interval;
 use crate::compare::linear::Range;
 use crate::compare::look::{Look, Sight, Verdict};
 use crate::compare::piece::Piece;
-use crate::compare::stated::{LIT_LEVELS, UNITS, WORLD_LEVEL};
+use crate::compare::stated::{LIT_LEVELS, UNITS, WORLD_LEVEL, WORLD_PER_COLUMN};
 use crate::reference::byte;
 
 /// What a face is painted with.
@@ -23,10 +23,7 @@ pub enum Paint {
         error: f64,
     },
     /// The corners' colours, linear over the screen.
-    Gouraud {
-        /// What the core's interpolation may lose of each.
-        stepping: f64,
-    },
+    Gouraud,
     /// Light at every pixel.
     Phong {
         /// The rule.
@@ -44,8 +41,10 @@ impl Look for Paint {
     fn verdict(&self, piece: &Piece<'_>, sight: &Sight) -> Verdict {
         match self {
             Self::Flat { color, error } => judged(&Range::constant(*color, *error), sight),
-            Self::Gouraud { stepping } => {
+            Self::Gouraud => {
                 let vertices = piece.greatest(|c| [c.at_error.color]);
+                // A unit for each column of a span, those off the picture included, up to four for the row, and four that are cut off.
+                let stepping = WORLD_PER_COLUMN * (piece.columns() + 8.0);
                 let values = piece.values(sight.sample, |c| c.color, sight.known, vertices + stepping);
                 values.map_or(Verdict::Pole, |range| judged(&range, sight))
             }

@@ -46,6 +46,8 @@ pub struct Mark {
     pub unit: f64,
     /// In how many times larger units the core carries its values: its vertices' w have both signs, whatever clipping leaves.
     pub headroom: f64,
+    /// Whether its values are linear over the screen, and stepped in their own units.
+    pub linear: bool,
     /// Whether clipping may leave nothing of it.
     pub perhaps: bool,
 }
@@ -117,6 +119,7 @@ impl<'s> Maker<'s> {
                 Shape::Triangle(vertices) | Shape::Textured(vertices, _) => self.headroom(vertices),
                 _ => 1.0,
             },
+            linear: !self.switches.hyp,
             perhaps,
         })
     }

@@ -61,8 +61,8 @@ pub const OPACITY: Interval = Interval { low: 0.0, high: 1.0 };
 pub struct Values {
     channels: Range<4>,
     texcoord: Range<2>,
-    /// The core's error of the texture coordinate by rounding to units, which both of its axes share: before it is interpolated,
-    /// and over w at the corners.
+    /// The core's error of the texture coordinate by rounding to units, which both of its axes share: before it is interpolated, over
+    /// w at the corners, and at each step of what is linear over the screen.
     texel_error: f64,
     /// How far the reference's texture coordinate may be from `texcoord.value`.
     texel_noise: f64,
@@ -89,10 +89,16 @@ impl Values {
             1.0
         };
         let units = (piece.columns() + piece.ratio(p) + INTERPOLATED) * mark.headroom;
+        let stepped = if mark.linear {
+            piece.columns() + INTERPOLATED
+        } else {
+            0.0
+        };
         Some(Self {
             channels: piece.values(p, channels, None, error(|e| e.color) * shares + units * mark.unit)?,
             texcoord: piece.values(p, |c| c.at.texcoord, None, error(|e| e.texcoord))?,
-            texel_error: error(|e| e.texcoord) * piece.ratio(p).max(1.0),
+            texel_error: error(|e| e.texcoord) * piece.ratio(p).max(1.0)
+                + stepped * piece.greatest(|c| [c.at_error.texcoord]),
             texel_noise: piece.noise(p, |c| c.at.texcoord),
             unit: mark.unit,
         })
