@@ -2,7 +2,9 @@
 //! picture.
 //!
 //! Each kind of scene stresses one thing, in all three shading modes; the seeds are fixed, so a failure names a scene that can be
-//! drawn again.
+//! drawn again; `FIXEL_SEEDS=1000..6000` draws others.
+
+mod random;
 
 use fixel_host::compare::iv::compare;
 use fixel_host::compare::{Class, Comparison};
@@ -11,6 +13,7 @@ use fixel_host::reference;
 use fixel_host::scene::iv::{
     Camera, Corner, Face, Light, Material, Model, Object, Rotation, Scene, Shading, Transform,
 };
+use random::{Random, seeds};
 
 const SIZE: u32 = 64;
 const SCENES: u64 = 120;
@@ -23,32 +26,7 @@ const FORMER: [(&str, u64); 4] = [
     ("inside_the_model", 14_053),
 ];
 
-/// A small generator (xorshift64*), so that scenes stay the same whatever crates do.
-struct Random(u64);
-
 impl Random {
-    fn new(kind: &str, seed: u64) -> Self {
-        let name = kind.bytes().fold(14_695_981_039_346_656_037, |h: u64, b| {
-            (h ^ u64::from(b)).wrapping_mul(1_099_511_628_211)
-        });
-        Random(name ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn one_in(&mut self, n: u32) -> bool {
-        self.unit() * f64::from(n) < 1.0
-    }
-
     fn below(&mut self, n: usize) -> usize {
         (self.unit() * n as f64) as usize
     }
@@ -174,7 +152,7 @@ fn model(random: &mut Random) -> Model {
     }
 }
 
-/// Draws SCENES scenes of a kind, a third in each mode, and compares them. Classes other than *colour* may hold one drawn pixel in
+/// Draws the scenes of a kind, a third in each mode, and compares them. Classes other than *colour* may hold one drawn pixel in
 /// `excused`.
 fn compared(kind: &str, excused: u64, model: impl Fn(&mut Random) -> Model) -> Vec<Comparison> {
     sized(kind, excused, |random| (SIZE, SIZE, model(random)))
@@ -183,8 +161,7 @@ fn compared(kind: &str, excused: u64, model: impl Fn(&mut Random) -> Model) -> V
 fn sized(kind: &str, excused: u64, model: impl Fn(&mut Random) -> (u32, u32, Model)) -> Vec<Comparison> {
     let mut all = Vec::new();
     let mut bad = Vec::new();
-    let former = FORMER.iter().filter(|(of, _)| *of == kind).map(|(_, seed)| *seed);
-    for seed in (0..SCENES).chain(former) {
+    for seed in seeds(kind, SCENES, &FORMER) {
         let mut random = Random::new(kind, seed);
         let (width, height, model) = model(&mut random);
         let scene = Scene {
@@ -225,7 +202,10 @@ fn sized(kind: &str, excused: u64, model: impl Fn(&mut Random) -> (u32, u32, Mod
         bad.len(),
         all.len()
     );
-    assert!(drawn > 300 * SCENES, "{kind}: {drawn} pixels are too few to tell");
+    assert!(
+        drawn > 300 * all.len() as u64,
+        "{kind}: {drawn} pixels are too few to tell"
+    );
     assert!(hidden * excused < drawn, "{kind}: {hidden} of {drawn} pixels excused");
     all
 }

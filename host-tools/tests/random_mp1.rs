@@ -1,6 +1,9 @@
 //! Random MP1 scenes through both back ends: no difference may be unexplained, and the classes may not hide a picture.
 //!
-//! Each kind of scene stresses one thing; the seeds are fixed, so a failure names a scene that can be drawn again.
+//! Each kind of scene stresses one thing; the seeds are fixed, so a failure names a scene that can be drawn again;
+//! `FIXEL_SEEDS=1000..6000` draws others.
+
+mod random;
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -13,6 +16,7 @@ use fixel_host::picture::Picture;
 use fixel_host::scene::mp1::{Primitive, Scene, Shape, Switches, Vertex};
 use fixel_host::scene::{Fault, Place};
 use fixel_host::{fixed, png, reference};
+use random::{Random, seeds};
 use rayon::prelude::*;
 
 const SCENES: u64 = 150;
@@ -26,34 +30,9 @@ const FORMER: [(&str, u64); 4] = [
     ("signs_of_w_mixed_and_clip_planes", 13_446),
 ];
 
-/// A small generator (xorshift64*), so that scenes stay the same whatever crates do.
-struct Random(u64);
-
 impl Random {
-    fn new(kind: &str, seed: u64) -> Self {
-        let name = kind.bytes().fold(14_695_981_039_346_656_037, |h: u64, b| {
-            (h ^ u64::from(b)).wrapping_mul(1_099_511_628_211)
-        });
-        Random(name ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
     fn below(&mut self, n: u32) -> u32 {
         (self.unit() * f64::from(n)) as u32
-    }
-
-    fn one_in(&mut self, n: u32) -> bool {
-        self.below(n) == 0
     }
 
     fn power_of_ten(&mut self, low: f64, high: f64) -> f64 {
@@ -217,7 +196,7 @@ fn described(shape: &Shape) -> String {
     }
 }
 
-/// Draws SCENES scenes of a kind and compares them. Classes other than *colour* may hold one drawn pixel in `excused`: 1000, but
+/// Draws the scenes of a kind and compares them. Classes other than *colour* may hold one drawn pixel in `excused`: 1000, but
 /// - 400 to 500 where the edges are many: layers are transparent, so that a pixel shows those of all that lie below it, and slivers
 ///   and lines are hardly more than edges;
 /// - 200 where far corners or a small w turn the edges by more than rounding does, and where a pixel is the mean of up to 16 samples;
@@ -239,9 +218,8 @@ fn compared(kind: &str, excused: u64, make: impl Fn(&mut Random) -> Scene + Sync
         });
         (comparison, bad)
     };
-    let former = FORMER.iter().filter(|(of, _)| *of == kind).map(|(_, seed)| *seed);
-    let seeds: Vec<u64> = (0..SCENES).chain(former).collect();
-    let (all, bad): (Vec<Comparison>, Vec<Option<String>>) = seeds.into_par_iter().map(draw).unzip();
+    let (all, bad): (Vec<Comparison>, Vec<Option<String>>) =
+        seeds(kind, SCENES, &FORMER).into_par_iter().map(draw).unzip();
     let bad: Vec<String> = bad.into_iter().flatten().collect();
     let sum = |of: &dyn Fn(&Comparison) -> u64| all.iter().map(of).sum::<u64>();
     let drawn = sum(&|c| c.pixels_drawn);
@@ -265,7 +243,10 @@ fn compared(kind: &str, excused: u64, make: impl Fn(&mut Random) -> Scene + Sync
         bad.len(),
         all.len()
     );
-    assert!(drawn > 200 * SCENES, "{kind}: {drawn} pixels are too few to tell");
+    assert!(
+        drawn > 200 * all.len() as u64,
+        "{kind}: {drawn} pixels are too few to tell"
+    );
     assert!(hidden * excused < drawn, "{kind}: {hidden} of {drawn} pixels excused");
     all
 }
