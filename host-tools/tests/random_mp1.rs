@@ -303,7 +303,7 @@ fn clip_planes() {
         w: |random| random.within(0.3, 3.0),
         ..TAME
     };
-    compared("clip_planes", 1000, |random| {
+    compared("clip_planes", 800, |random| {
         let mut switches = switches(random);
         switches.clip_planes = (0..1 + random.below(4)).map(|_| plane(random)).collect();
         scene(64, switches, shapes(random, 12, |random| any_shape(random, &vertices)))
