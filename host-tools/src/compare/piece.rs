@@ -8,8 +8,8 @@
 //! A clipped polygon of n corners has its values from the largest triangle of its fan alone, and a sample outside that one
 //! has weights of both signs: at most one is negative, and at least -(n - 3), since no triangle of the fan is larger.
 //! So Σ|b| ≤ 2n - 5 =: spread, and the displacement is at most spread · δ. The corners' range still holds: the core clamps to it.
-//! To do so it moves a row's values as a whole, those of N and of Q each by itself, wherever one end of the row would leave the range
-//! ([`Piece::kept`]).
+//! To do so it moves a row's values as a whole, those of N and of Q each by itself, wherever one end of the row would leave the range:
+//! by at most (spread + 1) · δ times the gradient, since what the plane should have there lies within the range.
 
 use std::array::from_fn;
 
@@ -47,18 +47,20 @@ pub struct Piece<'a> {
     walk: f64,
     /// Stepping of the core's depth along a row, in z/w.
     depth_steps: f64,
-    /// Half the side of the guard band.
-    guard: f64,
+    /// Whether the depth range or the guard band may cut it, and has corners of its own.
+    cut: bool,
 }
 
 impl<'a> Piece<'a> {
-    /// A triangle of an outline's fan; `count` is the most corners that clipping leaves of what it shares its values with.
-    pub fn new(corners: [Corner; 3], outline: &'a Outline, count: usize, screen: &Screen) -> Self {
+    /// A triangle of an outline's fan; `sides` is how many of the depth range's borders and the guard band's sides may cut it, each of
+    /// which can add a corner to those that share its values.
+    pub fn new(corners: [Corner; 3], outline: &'a Outline, sides: usize, screen: &Screen) -> Self {
         let size = screen.size;
         let fit = Fit::through(&corners, size);
         let guard = guard(size);
         // What shares its values with a far corner has the units that this one needs.
         let sharing = if outline.fanned { &corners[..] } else { &outline.outer };
+        let count = sharing.len() + sides;
         let mut greatest_q = Interval::of(sharing.iter().map(|c| c.w.recip().abs())).high;
         if let Some(fit) = fit {
             let band = [[-guard, -guard], [guard, -guard], [-guard, guard], [guard, guard]];
@@ -77,7 +79,7 @@ impl<'a> Piece<'a> {
             spread: (2 * count - 5) as f64,
             walk: (size[0] + size[1] + 8.0) * f64::EPSILON,
             depth_steps: DEPTH_PER_COLUMN * (extents[0] + 8.0) * screen.depth_step(),
-            guard,
+            cut: sides > 0,
         }
     }
 
@@ -213,16 +215,16 @@ impl<'a> Piece<'a> {
         Interval::around(value, by / (least - kept_q))
     }
 
-    /// By how much the core may move the values of the sample's row to keep its ends within the corners' `range`: by as much as a
-    /// corner that the plane is not laid through, which moves by δ as those do, may be off it. Of three corners there is none.
+    /// By how much the core may move the values of the sample's row to keep its ends within the corners' `range`. Of three corners, it
+    /// moves none.
     fn kept(&self, p: [f64; 2], function: &Linear, range: Interval) -> f64 {
         if self.spread <= 1.0 {
             return 0.0;
         }
         let reach = Interval::of(self.outline.outer.iter().map(|c| c.reach)).high;
-        // The plane there, the corner itself, and where the row ends.
-        let most = function.slope() * (self.spread + 2.0) * reach;
-        let Some(ends) = self.row(p[1], reach) else {
+        // The plane there, and where the row ends.
+        let most = function.slope() * (self.spread + 1.0) * reach;
+        let Some(ends) = self.row(p[1], reach).filter(|_| !self.cut) else {
             return most;
         };
         let beyond = |x: f64| {
@@ -232,13 +234,9 @@ impl<'a> Piece<'a> {
         beyond(ends[0]).max(beyond(ends[1])).clamp(0.0, most)
     }
 
-    /// Where the polygon begins and ends in the rows within `reach` of y; none where the guard band may cut it, and has corners of
-    /// its own.
+    /// Where the polygon begins and ends in the rows within `reach` of y; none where it has none.
     fn row(&self, y: f64, reach: f64) -> Option<[f64; 2]> {
         let corners = &self.outline.outer;
-        if corners.iter().flat_map(|c| c.position).any(|x| x.abs() > self.guard) {
-            return None;
-        }
         let mut row = [f64::INFINITY, f64::NEG_INFINITY];
         for (i, a) in corners.iter().enumerate() {
             let (a, b) = (a.position, corners[(i + 1) % corners.len()].position);

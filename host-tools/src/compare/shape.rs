@@ -40,11 +40,10 @@ impl<'a> Shape<'a> {
     /// The outline on a screen.
     pub fn new(outline: &'a Outline, screen: &Screen) -> Self {
         let corners = &outline.outer;
-        let together = if outline.fanned { 3 } else { corners.len() };
-        let count = together + clipping_sides(corners, screen);
+        let sides = clipping_sides(corners, screen);
         let piece = |i: usize| {
             let fan = [corners[0], corners[i - 1], corners[i]];
-            Piece::new(fan, outline, count, screen)
+            Piece::new(fan, outline, sides, screen)
         };
         Self {
             outline,

@@ -156,8 +156,8 @@ mod colour {
             let object = plain(right_of(-20.0, 2.0), [level / 255.0; 3]);
             scene(Shading::Gouraud, &[], vec![object])
         };
-        // 40 units of 2⁻³⁰, and 2⁻²⁶ of the values.
-        let bound = 255.0 * (12.0 * WORLD_UNIT + 4.0 * WORLD_UNIT) + WORLD_LEVEL;
+        // 100 columns, most of them off the picture, and 8 make 108 units of 2⁻³⁰; and 2⁻²⁶ of the values.
+        let bound = 255.0 * (27.0 * WORLD_UNIT + 4.0 * WORLD_UNIT) + WORLD_LEVEL;
         assert_eq!(class(&flat(127.0 + 0.5 * bound), grey(126), 1), Class::Colour);
         assert_eq!(class(&flat(127.0 + 1.1 * bound), grey(126), 1), Class::Unexplained);
         assert_eq!(class(&flat(128.0 - 0.5 * bound), grey(128), 1), Class::Colour);
@@ -212,8 +212,8 @@ mod colour {
 
     #[test]
     fn a_polygon_that_the_far_plane_cut_continues_the_plane_of_a_part_of_it() {
-        // Of the four corners that are left, three carry the plane: up to 3 δ.
-        for (off, expected) in [(2.9, Class::Colour), (3.1, Class::Unexplained)] {
+        // Of the four corners that are left, three carry the plane: up to 3 δ, and 4 more where a row is moved to end within their range.
+        for (off, expected) in [(6.9, Class::Colour), (7.1, Class::Unexplained)] {
             let moved = off * 50.0 * SNAP;
             assert_eq!(class(&rising(101.0 - moved, 4.0), grey(101), 1), expected, "{off}");
         }

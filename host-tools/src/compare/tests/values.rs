@@ -49,8 +49,9 @@ fn a_colour_may_be_off_by_gradient_times_delta() {
 
 #[test]
 fn a_clipped_polygon_continues_the_plane_of_a_part_of_it() {
-    // The depth range cuts off the right corner; of the four that are left, three carry the plane: up to 3 δ.
-    for (off, expected) in [(2.9, Class::Colour), (3.7, Class::Unexplained)] {
+    // The depth range cuts off the right corner; of the four that are left, three carry the plane: up to 3 δ, and 4 more where a row
+    // is moved to end within their range.
+    for (off, expected) in [(6.9, Class::Colour), (7.7, Class::Unexplained)] {
         assert_eq!(
             class(&steep(101.0 - off * 100.0 * SNAP, 1.2), grey(101), 1),
             expected,
