@@ -13,7 +13,7 @@ use fixel_host::reference;
 use fixel_host::scene::iv::{
     Camera, Corner, Face, Light, Material, Model, Object, Rotation, Scene, Shading, Transform,
 };
-use random::{Random, seeds};
+use random::{Random, none_unexplained, seeds};
 
 const SIZE: u32 = 64;
 const SCENES: u64 = 120;
@@ -195,13 +195,7 @@ fn sized(kind: &str, excused: u64, model: impl Fn(&mut Random) -> (u32, u32, Mod
         sum(&|c| c.explained.pole),
         sum(&|c| c.explained.steep),
     );
-    let some = bad.iter().take(5).map(String::as_str).collect::<Vec<_>>().join("\n");
-    assert!(
-        bad.is_empty(),
-        "unexplained in {} of {} scenes:\n{some}",
-        bad.len(),
-        all.len()
-    );
+    none_unexplained(&bad, all.len());
     assert!(
         drawn > 300 * all.len() as u64,
         "{kind}: {drawn} pixels are too few to tell"

@@ -16,7 +16,7 @@ use fixel_host::picture::Picture;
 use fixel_host::scene::mp1::{Primitive, Scene, Shape, Switches, Vertex};
 use fixel_host::scene::{Fault, Place};
 use fixel_host::{fixed, png, reference};
-use random::{Random, seeds};
+use random::{Random, none_unexplained, seeds};
 use rayon::prelude::*;
 
 const SCENES: u64 = 150;
@@ -236,13 +236,7 @@ fn compared(kind: &str, excused: u64, make: impl Fn(&mut Random) -> Scene + Sync
         sum(&|c| c.explained.pole),
         all.iter().map(|c| c.beyond_gradient).max().unwrap_or(0),
     );
-    let some = bad.iter().take(5).map(String::as_str).collect::<Vec<_>>().join("\n");
-    assert!(
-        bad.is_empty(),
-        "unexplained in {} of {} scenes:\n{some}",
-        bad.len(),
-        all.len()
-    );
+    none_unexplained(&bad, all.len());
     assert!(
         drawn > 200 * all.len() as u64,
         "{kind}: {drawn} pixels are too few to tell"

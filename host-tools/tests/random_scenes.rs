@@ -12,7 +12,7 @@ use fixel_host::compare::{Class, Comparison, compare};
 use fixel_host::fixed::hw2::Fixed;
 use fixel_host::picture::Picture;
 use fixel_host::reference::hw2::Reference;
-use random::{Random, seeds};
+use random::{Random, none_unexplained, seeds};
 
 /// A vertex without a normal or a place on a texture.
 const BARE: Vertex = Vertex {
@@ -91,13 +91,7 @@ fn compared(
         sum(&|c| c.explained.pole),
         sum(&|c| c.explained.steep),
     );
-    let some = bad.iter().take(5).map(String::as_str).collect::<Vec<_>>().join("\n");
-    assert!(
-        bad.is_empty(),
-        "unexplained in {} of {} scenes:\n{some}",
-        bad.len(),
-        all.len()
-    );
+    none_unexplained(&bad, all.len());
     assert!(
         drawn > 300 * all.len() as u64,
         "{kind}: {drawn} pixels are too few to tell"

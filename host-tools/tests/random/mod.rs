@@ -46,3 +46,13 @@ pub fn seeds(kind: &str, count: u64, former: &[(&str, u64)]) -> Vec<u64> {
     let former = former.iter().filter(|(of, _)| *of == kind).map(|(_, seed)| *seed);
     ASKED.clone().unwrap_or(0..count).chain(former).collect()
 }
+
+/// Fails where some of so many scenes have differences that nothing explains, and names the first.
+pub fn none_unexplained(bad: &[String], scenes: usize) {
+    let some = bad.get(..5).unwrap_or(bad).join("\n");
+    assert!(
+        bad.is_empty(),
+        "unexplained in {} of {scenes} scenes:\n{some}",
+        bad.len()
+    );
+}
