@@ -265,8 +265,8 @@ fn compared(kind: &str, excused: usize, make: impl Fn(&mut Random) -> List) {
     );
 }
 
-/// Vertices within 1.3 times the viewport, with w from `least` to `most`; the near plane is at w = 100, and depth that of a primitive,
-/// or with it of the place.
+/// Vertices within 1.3 times the viewport, with w from `least` to `most`. Where `flat`, each primitive has a depth of its own; else
+/// depth grows with w, and the near plane is at w = 100.
 fn list(random: &mut Random, corners: i32, [least, most]: [f64; 2], flat: bool) -> List {
     within(random, 1.3, corners, [least, most], flat)
 }

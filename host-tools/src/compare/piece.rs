@@ -59,7 +59,7 @@ impl<'a> Piece<'a> {
         let fit = Fit::through(&corners, size);
         let guard = guard(size);
         // What shares its values with a far corner has the units that this one needs.
-        let sharing = if outline.fanned { &corners[..] } else { &outline.outer };
+        let sharing = sharing(&corners, outline);
         let count = sharing.len() + sides;
         let mut greatest_q = Interval::of(sharing.iter().map(|c| c.w.recip().abs())).high;
         if let Some(fit) = fit {
@@ -140,7 +140,7 @@ impl<'a> Piece<'a> {
         let own = numerators.zip(self.fit.as_ref()).map(|(n, fit)| quotients(n, fit));
         let value = known.or(own).unwrap_or([f64::NAN; N]);
         let moved = from_fn(|i| {
-            let range = Interval::of(self.sharing().map(|c| of(c)[i] / c.w));
+            let range = Interval::of(sharing(&self.corners, self.outline).iter().map(|c| of(c)[i] / c.w));
             let free = self.along(p, numerators.map(|n| (n[i], range)), value[i], least);
             let range = Interval::of(self.corners.iter().map(|c| of(c)[i]));
             if self.outline.mixed { free } else { free.clamped(range) }
@@ -205,7 +205,7 @@ impl<'a> Piece<'a> {
             return Interval::ALL;
         };
         let moved = self.spread * self.reach(p);
-        let q_range = Interval::of(self.sharing().map(|c| 1.0 / c.w));
+        let q_range = Interval::of(sharing(&self.corners, self.outline).iter().map(|c| 1.0 / c.w));
         let (kept, kept_q) = (self.kept(p, &n, range), self.kept(p, &fit.q, q_range));
         if fit.q.at(p).abs() <= fit.q.slope() * moved || least <= kept_q {
             return Interval::ALL;
@@ -258,16 +258,6 @@ impl<'a> Piece<'a> {
         Some(row).filter(|row| row[0] <= row[1])
     }
 
-    /// The corners that have one plane of values.
-    fn sharing(&self) -> impl Iterator<Item = &Corner> {
-        let corners = if self.outline.fanned {
-            &self.corners[..]
-        } else {
-            &self.outline.outer
-        };
-        corners.iter()
-    }
-
     /// The least |1/w| within δ of a sample; with one sign it is never below the corners' least.
     fn least_q(&self, p: [f64; 2]) -> f64 {
         let corners = Interval::of(self.corners.map(|c| c.w.recip().abs())).low;
@@ -276,6 +266,11 @@ impl<'a> Piece<'a> {
         });
         if self.outline.mixed { here } else { here.max(corners) }
     }
+}
+
+/// The corners that have one plane of values with those of a triangle of the fan.
+fn sharing<'c>(triangle: &'c [Corner; 3], outline: &'c Outline) -> &'c [Corner] {
+    if outline.fanned { triangle } else { &outline.outer }
 }
 
 impl Fit {
