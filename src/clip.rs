@@ -15,7 +15,7 @@ use core::hint::black_box;
 use heapless::{Vec, VecView};
 
 use crate::error::Error;
-use crate::num::{Block, Wide, Word};
+use crate::num::{Block, Scaled, Wide, Word};
 use crate::viewport::Viewport;
 
 /// Corners that a triangle can get from the depth range (2 planes) and the guard band (4 planes).
@@ -188,7 +188,7 @@ impl<C: Copy> Slots<'_, C> {
     }
 
     #[inline(never)]
-    fn get_mut(&mut self, index: usize) -> Option<&mut C> {
+    pub(crate) fn get_mut(&mut self, index: usize) -> Option<&mut C> {
         match self.built_in.get_mut(index) {
             Some(corner) => Some(corner),
             None => self.user.get_mut(index.wrapping_sub(BUILT_IN)),
@@ -219,6 +219,12 @@ impl<C: Copy> Slots<'_, C> {
                 core::mem::swap(there, black_box(&mut next));
             }
         }
+        self.truncate(len);
+    }
+
+    /// Leaves the first `len` corners.
+    #[inline]
+    pub(crate) fn truncate(&mut self, len: usize) {
         self.built_in.truncate(len);
         self.user.truncate(len.saturating_sub(BUILT_IN));
     }
@@ -306,7 +312,7 @@ impl<T: Word, const N: usize> Planes<T, N> {
             let corners = &mut polygon.slots();
             let is_inside = |i| {
                 let corner = corners.held().get(i)?;
-                Some(distance_of(&plane.mantissas(), corner) >= T::Wide::ZERO)
+                Some(distance_of(&plane.mantissas(), &corner.position) >= T::Wide::ZERO)
             };
             let crosses_last = is_inside(0) != is_inside(corners.held().len().wrapping_sub(1));
             cut(corners, plane.mantissas());
@@ -347,8 +353,8 @@ pub(crate) fn distance<T: Word>([a, b, c, d]: [T; 4], [x, y, z, w]: [T; 4]) -> T
 
 /// That of a corner. A function of its own: cutting asks for it in five places.
 #[inline(never)]
-fn distance_of<T: Word>(plane: &[T; 4], corner: &ClipCorner<T>) -> T::Wide {
-    distance(*plane, corner.position.mantissas())
+pub(crate) fn distance_of<T: Word>(plane: &[T; 4], position: &Block<T, 4>) -> T::Wide {
+    distance(*plane, position.mantissas())
 }
 
 /// A plane (0, 0, z, w).
@@ -381,13 +387,18 @@ impl<T: Word> ScreenPlanes<T> {
         }
     }
 
+    /// All of them.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &[T; 4]> {
+        self.planes.iter().skip(self.skipped)
+    }
+
     /// One bit for each of them that a point lies outside of, exactly.
     ///
     /// A function of its own: the same for all that is drawn.
     #[inline(never)]
     pub(crate) fn outcode(&self, position: [T; 4]) -> u8 {
         let mut code = 0;
-        for &plane in self.planes.iter().skip(self.skipped) {
+        for &plane in self.iter() {
             code = code << 1 | (distance(plane, position) < T::Wide::ZERO) as u8;
         }
         code
@@ -404,7 +415,7 @@ impl<T: Word> ScreenPlanes<T> {
             return None;
         }
         if any != 0 {
-            for &plane in self.planes.iter().skip(self.skipped) {
+            for &plane in self.iter() {
                 cut(polygon, plane);
             }
         }
@@ -415,12 +426,9 @@ impl<T: Word> ScreenPlanes<T> {
 /// Whether a point certainly lies inside all planes of the screen: the view volume does, and is soon tested.
 #[inline(always)]
 pub(crate) fn is_in_volume<T: Word>([x, y, z, w]: [T; 4], range: DepthRange) -> bool {
-    let in_depth = match range {
-        DepthRange::ZeroToOne => z >= T::ZERO && z <= w,
-        DepthRange::MinusOneToOne => z >= -w && z <= w,
-        DepthRange::Unlimited => true,
-    };
-    w > T::ZERO && x >= -w && x <= w && y >= -w && y <= w && in_depth
+    let z = if range == DepthRange::Unlimited { T::ZERO } else { z };
+    let nearest = if range == DepthRange::ZeroToOne { T::ZERO } else { -w };
+    w > T::ZERO && x >= -w && x <= w && y >= -w && y <= w && z >= nearest && z <= w
 }
 
 /// Cuts a polygon in clip space to what lies before the camera, all w > 0: by the near plane, and where that is not enough
@@ -455,7 +463,7 @@ fn w_of<T: Word>(corner: &ClipCorner<T>) -> T {
 
 /// Whether a corner lies beyond the far plane.
 pub(crate) fn is_beyond<T: Word>(corner: &ClipCorner<T>, range: DepthRange) -> bool {
-    range != DepthRange::Unlimited && distance_of(&far_plane(), corner) < T::Wide::ZERO
+    range != DepthRange::Unlimited && distance_of(&far_plane(), &corner.position) < T::Wide::ZERO
 }
 
 /// Where the edge from `inner` to `outer`, which [is beyond](is_beyond) the far plane, crosses that.
@@ -505,7 +513,7 @@ pub(crate) fn to_view<T: Word, W: Word>(
 /// second polygon is more stack than all else that clipping needs.
 #[inline(never)]
 pub(crate) fn cut<T: Word>(polygon: &mut Slots<'_, ClipCorner<T>>, plane: [T; 4]) {
-    let of = |corner: &ClipCorner<T>| distance_of(&plane, corner);
+    let of = |corner: &ClipCorner<T>| distance_of(&plane, &corner.position);
     // Mantissas are normalised per corner, so that distances compare as angles do.
     let (mut outermost, mut least) = (0, T::Wide::ZERO);
     for (i, corner) in polygon.held().iter().enumerate() {
@@ -560,29 +568,53 @@ pub(crate) fn cut<T: Word>(polygon: &mut Slots<'_, ClipCorner<T>>, plane: [T; 4]
 
 /// Where the edge from `inner` to `outer` crosses the plane.
 fn crossing<T: Word>(inner: &ClipCorner<T>, outer: &ClipCorner<T>, plane: [T; 4]) -> ClipCorner<T> {
-    let d_in = distance_of(&plane, inner);
-    let d_out = -distance_of(&plane, outer);
-    let bits = d_in.bit_length().max(d_out.bit_length());
-    let shift = bits.saturating_sub(T::BITS);
-    let (d_in, d_out) = ((d_in >> shift).narrow(), (d_out >> shift).narrow());
-    let mix = |a: T, b: T| a.times(d_out) + b.times(d_in);
-
-    let [ax, ay, az, aw] = inner.position.mantissas();
-    let [bx, by, bz, bw] = outer.position.mantissas();
-    let (a_scale, b_scale) = (inner.position.exponent(), outer.position.exponent());
-    let position = Block::from_wide(
-        [mix(ax, bx), mix(ay, by), mix(az, bz), mix(aw, bw)],
-        a_scale.saturating_add(b_scale),
-    );
-
-    // Distances in true scale are d_in·2^a_scale and d_out·2^b_scale: weights want those, positions cancelled them.
-    let a_weights = inner.weights.times(Block::new([d_out], b_scale));
-    let b_weights = outer.weights.times(Block::new([d_in], a_scale));
-    let weights = a_weights.plus(b_weights);
+    let cut = Cut::new(&inner.position, &outer.position, &plane);
+    let [of_inner, of_outer] = cut.parts();
+    let weights = inner.weights.times(of_inner).plus(outer.weights.times(of_outer));
     // Only their ratio counts: back to weights of size 1.
     let excess = weights.exponent().saturating_add(T::BITS as i32);
     ClipCorner {
-        position: position.scaled(excess.saturating_neg()),
+        position: cut.position.scaled(excess.saturating_neg()),
         weights: weights.scaled(excess.saturating_neg()),
+    }
+}
+
+/// A plane's cut of an edge: a·d_b + b·d_a of its ends a and b.
+pub(crate) struct Cut<T> {
+    pub(crate) position: Block<T, 4>,
+    /// d_b and d_a, to the scales of the ends they do not belong to: distances in true scale are d_a·2^a_scale and d_b·2^b_scale.
+    /// Positions cancelled them, weights want those.
+    parts: [(T, i32); 2],
+}
+
+impl<T: Word> Cut<T> {
+    /// From the end that is kept to the one that is not.
+    #[inline(always)]
+    pub(crate) fn new(inner: &Block<T, 4>, outer: &Block<T, 4>, plane: &[T; 4]) -> Self {
+        let d_in = distance_of(plane, inner);
+        let d_out = -distance_of(plane, outer);
+        // Neither is negative.
+        let shift = d_in.max(d_out).bit_length().saturating_sub(T::BITS);
+        // As words, which the compiler would look through and multiply twice as long ones.
+        let (d_in, d_out) = black_box(((d_in >> shift).narrow(), (d_out >> shift).narrow()));
+        let (a_scale, b_scale) = (inner.exponent(), outer.exponent());
+        let mut mixed = [T::Wide::ZERO; 4];
+        let ends = inner.as_mantissas().iter().zip(outer.as_mantissas());
+        for (mixed, (&a, &b)) in mixed.iter_mut().zip(ends) {
+            *mixed = a.times(d_out) + b.times(d_in);
+        }
+        let mut position = Block::ZERO;
+        position.set_wide(&mut mixed, a_scale.saturating_add(b_scale));
+        Cut {
+            position,
+            parts: [(d_out, b_scale), (d_in, a_scale)],
+        }
+    }
+
+    /// How many times it has what belongs to either end.
+    #[inline(always)]
+    pub(crate) fn parts(&self) -> [Scaled<T>; 2] {
+        let [(d_out, b_scale), (d_in, a_scale)] = self.parts;
+        [Block::new([d_out], b_scale), Block::new([d_in], a_scale)]
     }
 }

@@ -23,6 +23,7 @@ mod indexed;
 mod segment;
 mod square;
 
+use indexed::Painter;
 pub use indexed::{assembled, indexed};
 pub use segment::{primitive_segment, primitive_wu_line, segment, stroke, wu_line, wu_stroke};
 pub use square::{disc, primitive_billboard, primitive_disc, primitive_square, square};
@@ -71,6 +72,10 @@ pub fn primitive<T, W, C, D, F, const N: usize>(
     D: Depth,
     F: Fragment<Pixel = C::Pixel, Varying: Carried>,
 {
+    if F::COMPACT {
+        view.paint(vertices, &mut Painter::<W, _, _, _>::new(color, depth, fragment));
+        return;
+    }
     view.project::<F::Varying>(vertices, |shape| {
         projected::<W, _, _, _, _>(color, depth, &shape.shown(), fragment);
     });

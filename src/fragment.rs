@@ -52,9 +52,18 @@ pub trait Fragment {
 /// Another fragment program, drawn by less code: where flash is short, or few triangles are small.
 ///
 /// Triangles below 16 columns and rows go the way of the others instead of [one of their own](crate::draw::triangle), and what
-/// a view has left goes the way of polygons, a triangle or not. The same pixels are covered. What they get is within the
-/// bounds that are stated for triangles, of a view for polygons (looser on spans beyond 1024 px), though not always the same to
-/// the last bit; on any machine and in any strip it is.
+/// vertices carry is cut along with them, in half of the code. The same pixels are covered. What they get is within the bounds that
+/// are stated for triangles and, where nothing is interpolated in 32 bits, for polygons, though not always the same to the last
+/// bit; on any machine and in any strip it is.
+///
+/// What a view leaves of a triangle is one polygon. Values that are linear over the screen, and those with
+/// [slopes](mod@crate::slope), are drawn over it as over the triangles around its first corner, or around another where rounding has
+/// turned one of these. Where a plane cuts, values run linearly over the screen if both ends of the edge are before the camera, else
+/// in clip space.
+///
+/// What it does without: up to 247 user planes count; [`LinearFan`](crate::varying::LinearFan) is as
+/// [`Linear`](crate::varying::Linear); and where w < 0 is [divided by](crate::clip::Behind::Divide), a triangle with w of both signs
+/// is cut off behind the camera all the same if user planes cut it, or if its values are in perspective.
 ///
 /// ```
 /// use fixel::depth::NoDepth;

@@ -330,22 +330,24 @@ impl<'c, W: Word, S: Corners> PolygonRows<'c, W, S> {
     /// The same code for all that is drawn of one kind of corners, as [`next`](Self::next).
     #[inline(never)]
     fn new(corners: &'c S, ccw: bool, window: Window) -> Self {
-        let (mut top, mut lowest) = (0, i32::MIN);
+        let (mut top, mut highest, mut lowest) = (0, i32::MAX, i32::MIN);
         let (mut leftmost, mut rightmost) = (i32::MAX, i32::MIN);
         for i in 0..corners.count() {
             let (x, y) = corners.position(i);
             lowest = lowest.max(y);
             (leftmost, rightmost) = (leftmost.min(x), rightmost.max(x));
-            if y < corners.position(top).1 {
-                top = i;
+            if y < highest {
+                (top, highest) = (i, y);
             }
         }
+        let (after, before) = (1, corners.count().wrapping_sub(1));
+        let (left, right) = if ccw { (after, before) } else { (before, after) };
         PolygonRows {
             corners,
             window,
             // Counter-clockwise on the screen, the corners after the top one run down its left side.
-            sides: [Chain::new(top, ccw), Chain::new(top, !ccw)],
-            row: first_row(corners.position(top).1).max(window.top),
+            sides: [Chain::new(top, left), Chain::new(top, right)],
+            row: first_row(highest).max(window.top),
             stop: i32::MIN,
             end: if is_beside(window, leftmost, rightmost) {
                 i32::MIN
@@ -389,17 +391,18 @@ struct Chain<W> {
     edge: Edge<W>,
     end: i32,
     corner: usize,
-    forward: bool,
+    /// From a corner to the next of the side, around all of them.
+    step: usize,
     remaining: usize,
 }
 
 impl<W: Word> Chain<W> {
-    fn new(top: usize, forward: bool) -> Self {
+    fn new(top: usize, step: usize) -> Self {
         Chain {
-            edge: Edge::default(),
+            edge: Edge::placeholder(0),
             end: i32::MIN,
             corner: top,
-            forward,
+            step,
             remaining: usize::MAX,
         }
     }
@@ -411,17 +414,8 @@ impl<W: Word> Chain<W> {
         self.remaining = self.remaining.min(count);
         while self.end <= row && self.remaining > 0 {
             self.remaining -= 1;
-            let next = match (self.forward, self.corner) {
-                (true, c) => {
-                    if c + 1 < count {
-                        c + 1
-                    } else {
-                        0
-                    }
-                }
-                (false, 0) => count - 1,
-                (false, c) => c - 1,
-            };
+            let next = self.corner.wrapping_add(self.step);
+            let next = if next < count { next } else { next.wrapping_sub(count) };
             let (from, to) = (corners.position(self.corner), corners.position(next));
             self.corner = next;
             self.end = first_row(to.1);

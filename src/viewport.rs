@@ -28,6 +28,8 @@ pub struct Viewport<W> {
     scale: (i32, i32),
     /// Position of x = y = 0 in subpixels.
     center: (i32, i32),
+    /// Whether the view volume lies within the guard band. Only half a pixel can be missing.
+    in_guard: bool,
     word: PhantomData<W>,
 }
 
@@ -50,6 +52,7 @@ impl<W: Word> Viewport<W> {
         Ok(Viewport {
             scale,
             center,
+            in_guard: true,
             word: PhantomData,
         })
     }
@@ -65,8 +68,11 @@ impl<W: Word> Viewport<W> {
     /// Samples in the middle of the pixels (`.iv`, OpenGL) instead of at their upper left corners.
     pub fn samples_at_centers(self) -> Self {
         let half = SUBPIXELS / 2;
+        let center = (self.center.0 - half, self.center.1 - half);
+        let within = |center: i32, scale: i32| center.abs() + scale.abs() <= Self::LIMIT;
         Viewport {
-            center: (self.center.0 - half, self.center.1 - half),
+            center,
+            in_guard: within(center.0, self.scale.0) && within(center.1, self.scale.1),
             ..self
         }
     }
@@ -95,11 +101,10 @@ impl<W: Word> Viewport<W> {
         self.scale.1 < 0
     }
 
-    /// Whether the view volume lies within the guard band. Only half a pixel can be missing.
+    /// Whether the view volume lies within the guard band.
     #[inline]
     pub(crate) fn is_in_guard(&self) -> bool {
-        let within = |center: i32, scale: i32| center.abs() + scale.abs() <= Self::LIMIT;
-        within(self.center.0, self.scale.0) && within(self.center.1, self.scale.1)
+        self.in_guard
     }
 
     /// The planes of the guard band, right, below, left and above where y runs downwards: all distances of a point with w > 0
@@ -119,30 +124,36 @@ impl<W: Word> Viewport<W> {
     /// 16-bit buffer, within 9 units with words of 32 bits and cut to a unit with 64. `None` unless w > 0. Positions are moved into the guard band and depths into their range, which the
     /// clipped ones leave by no more than rounding.
     pub fn place<T: Word>(&self, position: Block<T, 4>, range: DepthRange) -> Option<(i32, i32, i32)> {
-        self.place_within(position, range, Self::LIMIT)
+        self.place_by(position, range, |v, w, twice_w, axis| {
+            near_coordinate(v, w, twice_w, axis, Self::LIMIT)
+        })
     }
 
-    /// As [`place`](Self::place), but positions are moved to within ±`limit` subpixels.
-    pub(crate) fn place_within<T: Word>(
+    /// As [`place`](Self::place), but positions are not moved into the guard band.
+    pub(crate) fn place_anywhere<T: Word>(&self, position: Block<T, 4>, range: DepthRange) -> Option<(i32, i32, i32)> {
+        self.place_by(position, range, coordinate)
+    }
+
+    #[inline(always)]
+    fn place_by<T: Word>(
         &self,
         position: Block<T, 4>,
         range: DepthRange,
-        limit: i32,
+        coordinate: impl Fn(T, T, &T::Divisor, (i32, i32)) -> i32,
     ) -> Option<(i32, i32, i32)> {
         let [x, y, z, w] = position.mantissas();
         if w <= T::ZERO {
             return None;
         }
         let divisor = w.twice();
-        let coordinate = |v, scale, center| coordinate(v, w, &divisor, (scale, center), limit);
         let depth = match range {
             DepthRange::ZeroToOne => z.max(T::ZERO).min(w),
             DepthRange::MinusOneToOne => z.max(-w).min(w),
             DepthRange::Unlimited => T::ZERO,
         };
         Some((
-            coordinate(x, self.scale.0, self.center.0),
-            coordinate(y, self.scale.1, self.center.1),
+            coordinate(x, w, &divisor, (self.scale.0, self.center.0)),
+            coordinate(y, w, &divisor, (self.scale.1, self.center.1)),
             depth_of(depth, w, &divisor, range),
         ))
     }
@@ -286,11 +297,31 @@ fn rounded<T: Word>(v: T, scale: i32, w: T) -> T::Wide {
     distance + distance + w.widen()
 }
 
-/// v/w in subpixels, to the nearest, within ±`limit`.
+/// v/w in subpixels, to the nearest, within ±`limit`, which is at most 2^23.
 ///
 /// A function of its own: it is called for both coordinates.
 #[inline(never)]
-fn coordinate<T: Word>(v: T, w: T, twice_w: &T::Divisor, (scale, center): (i32, i32), limit: i32) -> i32 {
+fn near_coordinate<T: Word>(v: T, w: T, twice_w: &T::Divisor, (scale, center): (i32, i32), limit: i32) -> i32 {
+    let numerator = rounded(v, scale, w);
+    // A quotient of 2^26, beyond any limit from any center.
+    let far = w.widen() << (FAR + 1);
+    let from_center = if numerator >= far {
+        1 << FAR
+    } else if numerator < -far {
+        -1 << FAR
+    } else {
+        T::quotient(numerator, twice_w)
+    };
+    (from_center + center).clamp(-limit, limit)
+}
+
+/// See [`near_coordinate`].
+const FAR: u32 = 26;
+
+/// v/w in subpixels, to the nearest, however far.
+#[inline(never)]
+fn coordinate<T: Word>(v: T, w: T, twice_w: &T::Divisor, (scale, center): (i32, i32)) -> i32 {
+    let limit = i32::MAX;
     let from_center = rounded(v, scale, w);
     let numerator = from_center + T::from_i32(center).times(w) + T::from_i32(center).times(w);
     // So far out that the quotient might not fit.
@@ -307,8 +338,8 @@ fn coordinate<T: Word>(v: T, w: T, twice_w: &T::Divisor, (scale, center): (i32, 
 /// Depth in units of 2^-15 step, for a z in the range.
 #[inline(always)]
 fn depth_of<T: Word>(z: T, w: T, twice_w: &T::Divisor, range: DepthRange) -> i32 {
-    if T::BITS == <i32 as Word>::BITS {
-        return DepthScale::new(range).depth(&Ratio::over(w.low_i32()), z.low_i32());
+    if let Some((reciprocal, shift)) = T::reciprocal(twice_w) {
+        return DepthScale::new(range).depth(&Ratio { reciprocal, shift }, z.low_i32());
     }
     // 65535·2^15 per unit of z/w over 0…1.
     let full = T::from_i32(65535 << 15);

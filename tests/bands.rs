@@ -11,7 +11,7 @@ use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::depth::{Depth, DepthBuffer, FAR, LessOrEqual, NoDepth};
 use fixel::draw;
 use fixel::error::Error;
-use fixel::fragment::{Flat, Fragment};
+use fixel::fragment::{Compact, Flat, Fragment};
 use fixel::matrix::Matrix;
 use fixel::screen::{Corner, FineDepth, Position, SubPx};
 use fixel::target::Buffer;
@@ -109,12 +109,35 @@ impl Primitive {
     }
 }
 
-fn whole<D: Depth>(scene: &[Primitive], depth: &mut D) -> Vec<u32> {
+/// A fragment program that is made of a [`Mix`].
+trait Mixed: Fragment<Varying = <Mix as Fragment>::Varying, Pixel = u32> + Copy {
+    fn of(mix: Mix) -> Self;
+}
+
+impl Mixed for Mix {
+    fn of(mix: Mix) -> Self {
+        mix
+    }
+}
+
+impl Mixed for Compact<Mix> {
+    fn of(mix: Mix) -> Self {
+        Compact(mix)
+    }
+}
+
+fn whole<F: Mixed, D: Depth>(scene: &[Primitive], depth: &mut D) -> Vec<u32> {
     let mut picture = vec![BACKGROUND; PIXELS];
     let mut color = Buffer::new(&mut picture, WIDTH, HEIGHT).unwrap();
     for primitive in scene {
-        draw::primitive(&view(), &mut color, depth, &primitive.vertices(), &Mix(primitive.color));
-        draw::triangle(&mut color, depth, primitive.screen(), &Mix(!primitive.color));
+        draw::primitive(
+            &view(),
+            &mut color,
+            depth,
+            &primitive.vertices(),
+            &F::of(Mix(primitive.color)),
+        );
+        draw::triangle(&mut color, depth, primitive.screen(), &F::of(Mix(!primitive.color)));
     }
     picture
 }
@@ -151,7 +174,7 @@ impl<'b> Sink<u32, &'b mut [u32]> for Panel {
 }
 
 /// Two frames in bands of `rows` rows; the second one's picture, and how often it was submitted.
-fn in_bands<Z: DepthTest, const CORNERS: usize, const POLYGONS: usize, const BANDS: usize>(
+fn in_bands<F: Mixed, Z: DepthTest, const CORNERS: usize, const POLYGONS: usize, const BANDS: usize>(
     scene: &[Primitive],
     rows: u16,
     double: bool,
@@ -165,15 +188,15 @@ fn in_bands<Z: DepthTest, const CORNERS: usize, const POLYGONS: usize, const BAN
     };
     let mut bands = bands.unwrap().with_depth::<Z>(&mut depths).unwrap();
     assert_eq!(bands.rows(), rows);
-    let mut pool = Box::new(Pool::<Mix, CORNERS, POLYGONS, BANDS>::new());
+    let mut pool = Box::new(Pool::<F, CORNERS, POLYGONS, BANDS>::new());
     let view = view();
     let mut last = None;
     for _ in 0..2 {
         let mut panel = Panel::default();
         let Ok(passes) = bands.render(&mut pool, &mut panel, |frame| {
             for primitive in scene {
-                frame.primitive(&view, &primitive.vertices(), Mix(primitive.color));
-                frame.triangle(primitive.screen(), Mix(!primitive.color));
+                frame.primitive(&view, &primitive.vertices(), F::of(Mix(primitive.color)));
+                frame.triangle(primitive.screen(), F::of(Mix(!primitive.color)));
             }
         });
         last = Some((panel.picture, passes));
@@ -181,16 +204,21 @@ fn in_bands<Z: DepthTest, const CORNERS: usize, const POLYGONS: usize, const BAN
     last.unwrap()
 }
 
-fn check<Z: DepthTest>(scene: &[Primitive], whole: &[u32], rows: u16, double: bool) -> Result<(), TestCaseError> {
-    let roomy = in_bands::<Z, 4000, 999, 64>(scene, rows, double);
+fn check<F: Mixed, Z: DepthTest>(
+    scene: &[Primitive],
+    whole: &[u32],
+    rows: u16,
+    double: bool,
+) -> Result<(), TestCaseError> {
+    let roomy = in_bands::<F, Z, 4000, 999, 64>(scene, rows, double);
     prop_assert!(roomy.0 == whole, "bands of {} rows", rows);
     prop_assert_eq!(roomy.1, 1);
-    let tight = in_bands::<Z, 24, 7, 64>(scene, rows, double);
+    let tight = in_bands::<F, Z, 24, 7, 64>(scene, rows, double);
     prop_assert!(tight.0 == whole, "bands of {} rows, several passes", rows);
-    let few = in_bands::<Z, 4000, 999, 2>(scene, rows, double);
+    let few = in_bands::<F, Z, 4000, 999, 2>(scene, rows, double);
     prop_assert!(few.0 == whole, "bands of {} rows, two in a pass", rows);
     prop_assert_eq!(few.1, u32::from(HEIGHT.div_ceil(rows).div_ceil(2)));
-    let none = in_bands::<Z, 0, 0, 0>(scene, rows, double);
+    let none = in_bands::<F, Z, 0, 0, 0>(scene, rows, double);
     prop_assert!(none.0 == whole, "bands of {} rows without a pool", rows);
     prop_assert_eq!(none.1, u32::from(HEIGHT.div_ceil(rows)));
     Ok(())
@@ -205,11 +233,17 @@ proptest! {
     ) {
         let mut depths = vec![FAR; PIXELS];
         let mut depth = DepthBuffer::<_, LessOrEqual>::new(Buffer::new(&mut depths, WIDTH, HEIGHT).unwrap());
-        let (plain, tested) = (whole(&scene, &mut NoDepth), whole(&scene, &mut depth));
+        let (plain, tested) = (whole::<Mix, _>(&scene, &mut NoDepth), whole::<Mix, _>(&scene, &mut depth));
         for rows in 1..=HEIGHT {
-            check::<NoDepth>(&scene, &plain, rows, double)?;
-            check::<LessOrEqual>(&scene, &tested, rows, double)?;
+            check::<Mix, NoDepth>(&scene, &plain, rows, double)?;
+            check::<Mix, LessOrEqual>(&scene, &tested, rows, double)?;
         }
+    }
+
+    #[test]
+    fn by_less_code_as_well(scene in prop::collection::vec(primitive(), 1..16), rows in 1..=HEIGHT) {
+        let plain = whole::<Compact<Mix>, _>(&scene, &mut NoDepth);
+        check::<Compact<Mix>, NoDepth>(&scene, &plain, rows, false)?;
     }
 }
 

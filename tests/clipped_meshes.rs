@@ -5,13 +5,17 @@
 mod exact;
 mod strict;
 
+use std::marker::PhantomData;
+
 use exact::{block, scaled};
 use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::depth::NoDepth;
 use fixel::draw;
+use fixel::fragment::{Compact, Fragment};
 use fixel::matrix::Matrix;
 use fixel::num::{Scaled, Word};
-use fixel::view::{Cull, Vertex, View};
+use fixel::varying::{Color565, Perspective, Varying};
+use fixel::view::{Carried, Cull, Vertex, View};
 use fixel::viewport::Viewport;
 use fixel::window::Window;
 use proptest::prelude::*;
@@ -105,17 +109,46 @@ fn view<T: Word, W: Word>(projection: Matrix<T>, depth_range: DepthRange, behind
     }
 }
 
-/// Draws all, failing on a pixel drawn twice.
+/// Draws all, failing on a pixel drawn twice: by less code, with or without values, it is the same.
 fn draw_mesh<T: Word, W: Word>(view: &View<T, W, 3>, mesh: &[[Point; 3]]) -> Vec<String> {
+    let drawn = draw_with(view, mesh, (), &Mark(b'#'));
+    assert_eq!(draw_with(view, mesh, (), &Compact(Mark(b'#'))), drawn, "compact");
+    let fan = Compact(Marked::<Color565>(PhantomData));
+    assert_eq!(draw_with(view, mesh, [0; 3], &fan), drawn, "as triangles");
+    let polygons = Compact(Marked::<Perspective<1>>(PhantomData));
+    assert_eq!(draw_with(view, mesh, [7], &polygons), drawn, "as polygons");
+    drawn
+}
+
+fn draw_with<T: Word, W: Word, F>(
+    view: &View<T, W, 3>,
+    mesh: &[[Point; 3]],
+    carried: <F::Varying as Carried>::Vertex,
+    fragment: &F,
+) -> Vec<String>
+where
+    F: Fragment<Varying: Carried, Pixel = u8>,
+{
     let mut target = StrictTarget::new(Window::new(0, 0, WIDTH, HEIGHT), false);
     for triangle in mesh {
         let vertices = triangle.map(|p| Vertex {
             position: block(p),
-            carried: (),
+            carried,
         });
-        draw::primitive(view, &mut target, &mut NoDepth, &vertices, &Mark(b'#'));
+        draw::primitive(view, &mut target, &mut NoDepth, &vertices, fragment);
     }
     target.picture()
+}
+
+/// As [`Mark`], with values that are not looked at.
+struct Marked<V>(PhantomData<V>);
+
+impl<V: Varying> Fragment for Marked<V> {
+    type Varying = V;
+    type Pixel = u8;
+    fn shade(&self, _: V::Values, below: u8) -> Option<u8> {
+        Mark(b'#').shade((), below)
+    }
 }
 
 fn full(picture: &[String]) -> bool {

@@ -10,7 +10,7 @@ use crate::mesh::Index;
 use crate::num::Word;
 use crate::screen::{Corner, Position, Shape, SubPx};
 use crate::target::Buffer;
-use crate::view::{Carried, Facing, ScreenVertex, Triangle, Vertex, View, Way};
+use crate::view::{Carried, Facing, Painting, ScreenVertex, Triangle, Vertex, View, Way};
 use crate::window::Window;
 
 /// The frame being drawn: takes triangles, and stores them for all bands or draws them into one.
@@ -61,6 +61,10 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
         T: Word,
         F::Varying: Carried,
     {
+        if F::COMPACT {
+            view.paint(vertices, &mut (self, fragment));
+            return;
+        }
         view.project::<F::Varying>(vertices, |shape| self.shape(shape, Position::placed, fragment));
     }
 
@@ -151,6 +155,10 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
         T: Word,
         F::Varying: Carried,
     {
+        if F::COMPACT {
+            view.paint_assembled([a, b, c], &mut (self, *fragment));
+            return;
+        }
         view.clip_triangle::<F::Varying>([a, b, c], |left| self.shape(&left.shown(), Position::placed, *fragment));
     }
 
@@ -174,6 +182,13 @@ impl<F: Fragment + Copy, Z: DepthTest> Frame<'_, F, Z> {
                 }
             }
         }
+    }
+}
+
+impl<F: Fragment + Copy, Z: DepthTest> Painting<F::Varying> for (&mut Frame<'_, F, Z>, F) {
+    #[inline]
+    fn paint<S: Shape<Varying = F::Varying>>(&mut self, shape: &S, _area: i64) {
+        self.0.shape(shape, Position::placed, self.1);
     }
 }
 

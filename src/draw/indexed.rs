@@ -7,10 +7,11 @@ use crate::depth::Depth;
 use crate::fragment::Fragment;
 use crate::mesh::Index;
 use crate::num::Word;
+use crate::screen::Shape;
 use crate::target::Target;
-use crate::view::{Carried, Facing, ScreenVertex, Triangle, View, Way};
+use crate::view::{Carried, Facing, Painting, ScreenVertex, Triangle, View, Way};
 
-use super::{projected, shape};
+use super::{any_size, projected, shape};
 
 /// Draws triangles whose corners are indices into `vertices`, made by [`View::vertex`] of the same view. A triangle with an
 /// index beyond the last vertex draws nothing.
@@ -56,12 +57,7 @@ pub fn indexed<T, W, C, D, F, I>(
     F: Fragment<Pixel = C::Pixel, Varying: Carried>,
     I: Index,
 {
-    let mut painter = Painter {
-        color,
-        depth,
-        fragment,
-        word: PhantomData::<W>,
-    };
+    let mut painter = Painter::<W, _, _, _>::new(color, depth, fragment);
     // Hidden from the compiler, which would decide anew for each triangle.
     let facing = black_box(view.cull.facing());
     for [a, b, c] in triangles {
@@ -94,22 +90,42 @@ pub fn assembled<T, W, C, D, F>(
     D: Depth,
     F: Fragment<Pixel = C::Pixel, Varying: Carried>,
 {
-    let mut painter = Painter {
-        color,
-        depth,
-        fragment,
-        word: PhantomData::<W>,
-    };
+    let mut painter = Painter::<W, _, _, _>::new(color, depth, fragment);
     painter.assembled(view, view.cull.facing(), vertices);
 }
 
 /// All that triangles are drawn with, behind one reference: most of them are culled, and the loop that finds out needs the
 /// registers.
-struct Painter<'p, W, C, D, F> {
+pub(super) struct Painter<'p, W, C, D, F> {
     color: &'p mut C,
     depth: &'p mut D,
     fragment: &'p F,
     word: PhantomData<W>,
+}
+
+impl<'p, W, C, D, F> Painter<'p, W, C, D, F> {
+    #[inline(always)]
+    pub(super) fn new(color: &'p mut C, depth: &'p mut D, fragment: &'p F) -> Self {
+        Painter {
+            color,
+            depth,
+            fragment,
+            word: PhantomData,
+        }
+    }
+}
+
+impl<W, C, D, F> Painting<F::Varying> for Painter<'_, W, C, D, F>
+where
+    W: Word,
+    C: Target,
+    D: Depth,
+    F: Fragment<Pixel = C::Pixel>,
+{
+    #[inline]
+    fn paint<S: Shape<Varying = F::Varying>>(&mut self, left: &S, area: i64) {
+        any_size::<W, _, _, _, _>(self.color, self.depth, left, left, area, self.fragment);
+    }
 }
 
 impl<W, C, D, F> Painter<'_, W, C, D, F>
@@ -152,6 +168,10 @@ where
         b: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
         c: &ScreenVertex<T, <F::Varying as Carried>::Vertex>,
     ) {
+        if F::COMPACT {
+            view.paint_assembled([a, b, c], self);
+            return;
+        }
         view.clip_triangle::<F::Varying>([a, b, c], |left| {
             projected::<W, _, _, _, _>(self.color, self.depth, &left.shown(), self.fragment);
         });

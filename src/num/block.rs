@@ -39,25 +39,9 @@ impl<T: Word, const N: usize> Block<T, N> {
     /// A function of its own: constants are made of it in many places of a program.
     #[inline(never)]
     pub fn new(mantissas: [T; N], exponent: i32) -> Self {
-        let bits = mantissas.iter().fold(0, |bits, m| m.bit_length().max(bits));
-        if bits == 0 {
-            return Self::ZERO;
-        }
-        let up = T::BITS.wrapping_sub(bits) as i32;
+        let mut block = Block::ZERO;
         // In place of what is given, callers would have to keep another.
-        let mut block = Block {
-            mantissas: [T::ZERO; N],
-            exponent: exponent.saturating_sub(up),
-        };
-        for (to, &m) in block.mantissas.iter_mut().zip(&mantissas) {
-            *to = if up >= 0 {
-                m << up as u32
-            } else {
-                // One bit too many: a half is rounded upwards.
-                let half = m >> up.wrapping_neg().wrapping_sub(1) as u32;
-                (half >> 1) + (half & T::ONE)
-            };
-        }
+        block.exponent = fit(&mantissas, &mut block.mantissas, exponent);
         block
     }
 
@@ -79,6 +63,20 @@ impl<T: Word, const N: usize> Block<T, N> {
     pub(crate) fn from_wide_here(values: [T::Wide; N], exponent: i32) -> Self {
         let (mantissas, bits) = T::Wide::normalized(values);
         Self::of_normalized(mantissas, bits, exponent)
+    }
+
+    /// As [`from_wide`](Self::from_wide), of numbers that are changed. A function of its own: nothing is copied.
+    #[inline(never)]
+    pub(crate) fn set_wide(&mut self, values: &mut [T::Wide; N], exponent: i32) {
+        let bits = T::Wide::normalize(values);
+        for (to, value) in self.mantissas.iter_mut().zip(values) {
+            *to = value.narrow();
+        }
+        self.exponent = if bits == 0 {
+            0
+        } else {
+            exponent.saturating_add(bits as i32 - T::BITS as i32)
+        };
     }
 
     #[inline(always)]
@@ -133,6 +131,12 @@ impl<T: Word, const N: usize> Block<T, N> {
         self.mantissas
     }
 
+    /// The same where they are.
+    #[inline(always)]
+    pub(crate) fn as_mantissas(&self) -> &[T; N] {
+        &self.mantissas
+    }
+
     /// The shared power of two.
     #[inline]
     pub fn exponent(&self) -> i32 {
@@ -164,6 +168,14 @@ impl<T: Word, const N: usize> Block<T, N> {
         Block {
             mantissas: self.mantissas.map(|m| -m),
             ..self
+        }
+    }
+
+    /// As [`negated`](Self::negated), in place.
+    #[inline]
+    pub(crate) fn negate(&mut self) {
+        for mantissa in &mut self.mantissas {
+            *mantissa = -*mantissa;
         }
     }
 
@@ -218,6 +230,28 @@ impl<T: Word, const N: usize> Block<T, N> {
             .saturating_sub(T::BITS as i32);
         Some(Self::from_wide(quotients, exponent))
     }
+}
+
+/// `mantissas · 2^exponent` as those of a [`Block`], unless all are 0; their exponent.
+///
+/// A function of its own: the same for however many numbers.
+#[inline(never)]
+fn fit<T: Word>(mantissas: &[T], fitted: &mut [T], exponent: i32) -> i32 {
+    let bits = mantissas.iter().fold(0, |bits, m| m.bit_length().max(bits));
+    if bits == 0 {
+        return 0;
+    }
+    let up = T::BITS.wrapping_sub(bits) as i32;
+    for (to, &m) in fitted.iter_mut().zip(mantissas) {
+        *to = if up >= 0 {
+            m << up as u32
+        } else {
+            // One bit too many: a half is rounded upwards.
+            let half = m >> up.wrapping_neg().wrapping_sub(1) as u32;
+            (half >> 1) + (half & T::ONE)
+        };
+    }
+    exponent.saturating_sub(up)
 }
 
 impl<T: Word> Scaled<T> {

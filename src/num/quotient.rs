@@ -44,6 +44,12 @@ impl Divisor {
         }
     }
 
+    /// 2^62 over the divisor times a power of two that takes it to 2^31…2^32, within 4 units; and that power.
+    #[inline(always)]
+    pub(super) fn reciprocal(&self) -> Option<(i32, u32)> {
+        Some((self.reciprocal, self.shift))
+    }
+
     /// floor(n/d), where that lies within ±2^26; anything where it does not.
     ///
     /// ```

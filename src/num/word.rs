@@ -78,6 +78,8 @@ pub trait Word:
     fn ratio(self, divisor: Self) -> Self::Wide;
     /// Twice this word, from 1 to 2^[`BITS`](Word::BITS), to divide by.
     fn twice(self) -> Self::Divisor;
+    /// What a divisor is multiplied by instead, if so: a power of two and then, in units of 2^-31 of what that leaves, a number.
+    fn reciprocal(divisor: &Self::Divisor) -> Option<(i32, u32)>;
     /// numerator/divisor rounded down, where that lies within ±2^26.
     fn quotient(numerator: Self::Wide, divisor: &Self::Divisor) -> i32;
     /// numerator/divisor rounded down, where that lies within ±(2^31 − 16).
@@ -209,6 +211,10 @@ macro_rules! word {
                 <$divisor>::new((self as u64).wrapping_mul(2) as _)
             }
             #[inline(always)]
+            fn reciprocal(divisor: &$divisor) -> Option<(i32, u32)> {
+                divisor.reciprocal()
+            }
+            #[inline(always)]
             fn ratio(self, divisor: Self) -> $wide {
                 <$divisor>::ratio(self, divisor)
             }
@@ -266,6 +272,9 @@ pub struct Plain(i128);
 impl Plain {
     fn new(divisor: u64) -> Self {
         Plain(divisor as i128)
+    }
+    fn reciprocal(self) -> Option<(i32, u32)> {
+        None
     }
     fn floor_small(self, numerator: i128) -> i32 {
         Wide::div_floor(numerator, self.0) as i32

@@ -402,6 +402,27 @@ impl Weights {
         }
     }
 
+    /// Of a corner that is a vertex by itself: `part` is its 1/w, in units of 2^-30 of the polygon's largest, unless w is the same
+    /// everywhere.
+    pub(super) fn of_one(part: i32, affine: bool) -> Self {
+        Weights {
+            space: [part, 0, 0],
+            affine,
+            ..Self::of_vertex(0)
+        }
+    }
+
+    /// Of what lies between two ends; how much of it is the second.
+    pub(super) fn of_two(screen: i32, space: i32) -> Self {
+        let parts = |second: i32| [(1 << 30) - second, second, 0];
+        Weights {
+            screen: parts(screen),
+            space: parts(space),
+            vertex: None,
+            affine: true,
+        }
+    }
+
     fn pick<V>(&self, [a, b, c]: [V; 3]) -> Option<V> {
         match self.vertex? {
             0 => Some(a),
@@ -571,6 +592,6 @@ fn parts_of_one<T: Word>(a: Scaled<T>, b: Scaled<T>, whole: Scaled<T>) -> [i32; 
 }
 
 /// In units of 2^-30, within ±1.
-fn share<T: Word>(part: Scaled<T>) -> i32 {
+pub(super) fn share<T: Word>(part: Scaled<T>) -> i32 {
     part.to_fixed(30).clamp(-1 << 30, 1 << 30) as i32
 }

@@ -16,10 +16,10 @@ use crate::viewport::Viewport;
 pub(crate) struct Lens<'v, T: Word, W> {
     projection: &'v Matrix<T>,
     planes: &'v [Block<T, 4>],
-    viewport: &'v Viewport<W>,
-    depth_range: DepthRange,
-    behind: Behind,
-    cull: Cull,
+    pub(super) viewport: &'v Viewport<W>,
+    pub(super) depth_range: DepthRange,
+    pub(super) behind: Behind,
+    pub(super) cull: Cull,
 }
 
 impl<T: Word, W: Word, const N: usize> View<T, W, N> {

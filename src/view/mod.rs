@@ -1,6 +1,7 @@
 //! A view: all that lies between vertices in eye space and a polygon on the screen.
 
 mod carried;
+mod compact;
 mod lens;
 mod line;
 mod point;
@@ -14,6 +15,7 @@ use crate::num::{Block, Scaled, Word};
 use crate::viewport::Viewport;
 pub use carried::{Carried, InSpace, OnScreen, Shares, Wants, Weights};
 pub(crate) use carried::{Weigh, in_clip_space};
+pub(crate) use compact::Painting;
 pub use line::ProjectedLine;
 use projected::Left;
 pub use projected::Projected;
@@ -148,6 +150,6 @@ fn in_front<T: Word>(w: Scaled<T>) -> bool {
 }
 
 pub(crate) fn w_of<T: Word>(position: Block<T, 4>) -> Scaled<T> {
-    let [.., w] = position.split();
-    w
+    let [.., w] = position.mantissas();
+    Scaled::new([w], position.exponent())
 }

@@ -47,7 +47,7 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         if !in_range {
             return None;
         }
-        let (x, y, depth) = self.viewport.place_within(position, self.depth_range, i32::MAX)?;
+        let (x, y, depth) = self.viewport.place_anywhere(position, self.depth_range)?;
         Some(Center {
             x: SubPx::from_bits(x),
             y: SubPx::from_bits(y),

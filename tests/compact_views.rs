@@ -1,0 +1,331 @@
+//! By less code, what a view leaves of triangles: the same pixels, and values within their bounds, whatever cuts them.
+
+use std::marker::PhantomData;
+
+use fixel::clip::{Behind, DepthRange, Planes};
+use fixel::depth::NoDepth;
+use fixel::draw;
+use fixel::fragment::{Compact, Fragment};
+use fixel::matrix::Matrix;
+use fixel::num::{Block, Scaled, Word};
+use fixel::target::Buffer;
+use fixel::varying::{Color565, Linear, Linear32, Perspective, Varying};
+use fixel::view::{Carried, Cull, Vertex, View};
+use fixel::viewport::Viewport;
+use proptest::prelude::*;
+
+const WIDTH: u16 = 48;
+const HEIGHT: u16 = 32;
+
+/// A view, and a triangle before it, behind it or through it.
+#[derive(Debug, Clone)]
+struct Scene {
+    points: [[i32; 4]; 3],
+    planes: Vec<[i32; 4]>,
+    depth_range: DepthRange,
+    behind: Behind,
+    cull: Cull,
+    is_frustum: bool,
+}
+
+fn scene() -> impl Strategy<Value = Scene> {
+    let near = (-20..=20i32, -20..=20i32, -80..=10i32).prop_map(|(x, y, z)| [x, y, z, 1]);
+    let far = (-4000..=4000i32, -4000..=4000i32, -9000..=9000i32).prop_map(|(x, y, z)| [x, y, z, 1]);
+    let projective = (-20..=20i32, -20..=20i32, -40..=10i32, -3..=9i32).prop_map(<[i32; 4]>::from);
+    let point = prop_oneof![4 => near, 1 => far, 1 => projective];
+    let plane = (-4..=4i32, -4..=4i32, -2..=2i32, 0..=40i32).prop_map(<[i32; 4]>::from);
+    let ranges = prop::sample::select(&[DepthRange::ZeroToOne, DepthRange::MinusOneToOne, DepthRange::Unlimited][..]);
+    let behind = prop::sample::select(&[Behind::Cut, Behind::Cut, Behind::Divide][..]);
+    let cull = prop::sample::select(&[Cull::Nothing, Cull::Clockwise, Cull::CounterClockwise][..]);
+    let planes = prop_oneof![2 => Just(Vec::new()), 1 => prop::collection::vec(plane, 1..=2)];
+    (
+        prop::array::uniform3(point),
+        planes,
+        ranges,
+        behind,
+        cull,
+        any::<bool>(),
+    )
+        .prop_map(|(points, planes, depth_range, behind, cull, is_frustum)| Scene {
+            points,
+            planes,
+            depth_range,
+            behind,
+            cull,
+            is_frustum,
+        })
+}
+
+impl Scene {
+    fn view<T: Word, W: Word, const N: usize>(&self) -> View<T, W, N> {
+        let mut planes = Planes::default();
+        for plane in self.planes.iter().take(N) {
+            planes.push(Block::from_integers(*plane)).unwrap();
+        }
+        let frustum = Matrix::frustum([-1, 1, -1, 1, 1, 64].map(Scaled::from_integer));
+        let ortho = Matrix::ortho([-20, 20, -20, 20, 1, 64].map(Scaled::from_integer));
+        View {
+            projection: if self.is_frustum { frustum } else { ortho }.unwrap(),
+            planes,
+            viewport: Viewport::new(0, 0, WIDTH, HEIGHT).unwrap().y_up(),
+            depth_range: self.depth_range,
+            behind: self.behind,
+            cull: self.cull,
+        }
+    }
+
+    fn draw<T: Word, W: Word, F, P: Copy, const N: usize>(
+        &self,
+        carried: [<F::Varying as Carried>::Vertex; 3],
+        fragment: &F,
+        nothing: P,
+    ) -> Vec<P>
+    where
+        F: Fragment<Varying: Carried, Pixel = P>,
+    {
+        let mut pixels = vec![nothing; usize::from(WIDTH) * usize::from(HEIGHT)];
+        let vertices = [0, 1, 2].map(|i| Vertex {
+            position: Block::from_integers(self.points[i]),
+            carried: carried[i],
+        });
+        let mut target = Buffer::new(&mut pixels, WIDTH, HEIGHT).unwrap();
+        draw::primitive(&self.view::<T, W, N>(), &mut target, &mut NoDepth, &vertices, fragment);
+        pixels
+    }
+
+    /// The part of what user planes leave that is before the camera is all that is drawn of it.
+    fn is_cut_through_infinity(&self) -> bool {
+        self.behind == Behind::Divide && !self.planes.is_empty() && !self.is_on_one_side()
+    }
+
+    /// Whether all of it is before the camera, so that what is linear over the screen is so everywhere.
+    fn is_before_camera(&self) -> bool {
+        self.w().iter().all(|&w| w > 0)
+    }
+
+    fn is_on_one_side(&self) -> bool {
+        self.is_before_camera() || self.w().iter().all(|&w| w < 0)
+    }
+
+    /// In clip space.
+    fn w(&self) -> [i32; 3] {
+        self.points.map(|[_, _, z, w]| if self.is_frustum { -z } else { w })
+    }
+}
+
+/// Counts how often a pixel is drawn.
+struct Count<V>(PhantomData<V>);
+
+impl<V: Varying> Fragment for Count<V> {
+    type Varying = V;
+    type Pixel = u8;
+    fn shade(&self, _: V::Values, below: u8) -> Option<u8> {
+        Some(below + 1)
+    }
+}
+
+/// How often a compact program draws each pixel.
+fn hits<T: Word, W: Word, V: Carried, const N: usize>(scene: &Scene, carried: [V::Vertex; 3]) -> Vec<u8> {
+    scene.draw::<T, W, _, _, N>(carried, &Compact(Count::<V>(PhantomData)), 0)
+}
+
+/// Keeps two values.
+struct Values<V>(PhantomData<V>);
+
+impl<V: Varying<Values = [i32; 2]>> Fragment for Values<V> {
+    type Varying = V;
+    type Pixel = Option<[i32; 2]>;
+    fn shade(&self, values: [i32; 2], _: Option<[i32; 2]>) -> Option<Option<[i32; 2]>> {
+        Some(Some(values))
+    }
+}
+
+/// A corner in clip space and its values; an oracle in float64 of what is drawn by less code.
+#[derive(Debug, Clone, Copy)]
+struct Corner {
+    clip: [f64; 4],
+    values: [f64; 2],
+}
+
+/// Where the plane is crossed: values run linearly in clip space, or over the screen where both ends are before the camera.
+fn cut(a: Corner, b: Corner, distances: [f64; 2], on_screen: bool) -> Corner {
+    let t = distances[0] / (distances[0] - distances[1]);
+    let clip = [0, 1, 2, 3].map(|i| a.clip[i] + t * (b.clip[i] - a.clip[i]));
+    let s = if on_screen && a.clip[3] > 0.0 && b.clip[3] > 0.0 {
+        t * b.clip[3] / clip[3]
+    } else {
+        t
+    };
+    Corner {
+        clip,
+        values: [0, 1].map(|i| a.values[i] + s * (b.values[i] - a.values[i])),
+    }
+}
+
+/// Sutherland-Hodgman.
+fn clipped(polygon: &[Corner], distance: impl Fn(&Corner) -> f64, on_screen: bool) -> Vec<Corner> {
+    let mut kept = Vec::new();
+    for (i, &corner) in polygon.iter().enumerate() {
+        let next = polygon[(i + 1) % polygon.len()];
+        let distances = [distance(&corner), distance(&next)];
+        if distances[0] >= 0.0 {
+            kept.push(corner);
+        }
+        if (distances[0] >= 0.0) != (distances[1] >= 0.0) {
+            kept.push(cut(corner, next, distances, on_screen));
+        }
+    }
+    kept
+}
+
+impl Scene {
+    /// The triangles that are drawn, by a frustum of 1…64 with a near and a far plane and no user planes. None where the guard
+    /// band cuts them, and where one is so thin that snapping may turn it, which another fan has to be drawn for.
+    fn parts(&self, values: [[i32; 2]; 3], on_screen: bool) -> Vec<[Corner; 3]> {
+        let polygon = [0, 1, 2].map(|i| {
+            let [x, y, z, w] = self.points[i].map(f64::from);
+            Corner {
+                clip: [x, y, -65.0 / 63.0 * z - 128.0 / 63.0 * w, -z],
+                values: values[i].map(f64::from),
+            }
+        });
+        let polygon = clipped(&polygon, |c| c.clip[2] + c.clip[3], on_screen);
+        let polygon = clipped(&polygon, |c| c.clip[3] - c.clip[2], on_screen);
+        let parts: Vec<_> = (2..polygon.len())
+            .map(|i| [polygon[0], polygon[i - 1], polygon[i]])
+            .collect();
+        let is_far = polygon.iter().flat_map(place).any(|v| v.abs() > 4000.0);
+        if is_far || parts.iter().any(|part| height(part) < 0.02) {
+            return Vec::new();
+        }
+        parts
+    }
+}
+
+/// On the screen.
+fn place(corner: &Corner) -> [f64; 2] {
+    let [x, y, _, w] = corner.clip;
+    [
+        (x / w + 1.0) * f64::from(WIDTH) / 2.0,
+        (1.0 - y / w) * f64::from(HEIGHT) / 2.0,
+    ]
+}
+
+fn side(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+/// The least, in pixels.
+fn height(part: &[Corner; 3]) -> f64 {
+    let [a, b, c] = part.each_ref().map(place);
+    let longest = [(a, b), (b, c), (c, a)].map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
+    side(a, b, c).abs() / longest.into_iter().fold(1e-9, f64::max)
+}
+
+/// The first value of a part at a place, where that lies in it and it is thicker than 2 px; and by how much it changes within
+/// 1/100 px.
+fn value_at(part: &[Corner; 3], p: [f64; 2], on_screen: bool) -> Option<(f64, f64)> {
+    if height(part) < 2.0 {
+        return None;
+    }
+    let [a, b, c] = part.each_ref().map(place);
+    let area = side(a, b, c);
+    let at = |p| {
+        let weights = [side(b, c, p), side(c, a, p), side(a, b, p)].map(|side| side / area);
+        let w = part.map(|corner| if on_screen { 1.0 } else { corner.clip[3] });
+        let sum = |value: [f64; 3]| (0..3).map(|i| weights[i] * value[i] / w[i]).sum::<f64>();
+        let is_inside = weights.iter().all(|&weight| weight >= 0.0);
+        is_inside.then(|| sum(part.map(|corner| corner.values[0])) / sum([1.0; 3]))
+    };
+    let here = at(p)?;
+    let near = [[0.01, 0.0], [0.0, 0.01], [-0.01, 0.0], [0.0, -0.01]].map(|[dx, dy]| at([p[0] + dx, p[1] + dy]));
+    let most = near.into_iter().map(|value| Some((value? - here).abs()));
+    Some((here, most.collect::<Option<Vec<_>>>()?.into_iter().fold(0.0, f64::max)))
+}
+
+/// Of all pixels inside of thick parts, how far the value is beyond what moving by 1/100 px changes, at most.
+fn beyond<V>(scene: &Scene, carried: [[i32; 2]; 3], on_screen: bool) -> f64
+where
+    V: Carried<Vertex = [i32; 2]> + Varying<Values = [i32; 2]>,
+{
+    let drawn = scene.draw::<i32, i32, _, _, 0>(carried, &Compact(Values::<V>(PhantomData)), None);
+    let parts = scene.parts(carried, on_screen);
+    let mut most = 0f64;
+    for (i, pixel) in drawn.into_iter().enumerate() {
+        let (x, y) = (i % usize::from(WIDTH), i / usize::from(WIDTH));
+        let expected = parts
+            .iter()
+            .filter_map(|part| value_at(part, [x as f64, y as f64], on_screen));
+        for (value, change) in expected {
+            let [found, _] = pixel.unwrap_or_else(|| panic!("({x}, {y}) is not drawn"));
+            most = most.max((f64::from(found) - value).abs() - change);
+        }
+    }
+    most
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 4000, max_global_rejects: 40_000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_same_pixels_once(scene in scene()) {
+        prop_assume!(!scene.is_cut_through_infinity());
+        let drawn = scene.draw::<i32, i32, _, _, 2>([(); 3], &Count::<()>(PhantomData), 0);
+        prop_assert!(drawn.iter().all(|&hits| hits <= 1));
+        prop_assert_eq!(&hits::<i32, i32, (), 2>(&scene, [(); 3]), &drawn);
+        prop_assert_eq!(&hits::<i32, i32, (), 9>(&scene, [(); 3]), &drawn);
+        prop_assert_eq!(&hits::<i32, i32, Color565, 2>(&scene, [[0x8000; 3]; 3]), &drawn);
+        prop_assert_eq!(&hits::<i32, i32, Linear32<1>, 2>(&scene, [[5]; 3]), &drawn);
+        prop_assert_eq!(&hits::<i32, i32, Linear<2>, 2>(&scene, [[5; 2]; 3]), &drawn);
+        if scene.behind == Behind::Cut || scene.is_on_one_side() {
+            prop_assert_eq!(&hits::<i32, i32, Perspective<1>, 2>(&scene, [[5]; 3]), &drawn);
+        }
+        let drawn = scene.draw::<i32, i64, _, _, 2>([(); 3], &Count::<()>(PhantomData), 0);
+        prop_assert_eq!(&hits::<i32, i64, Linear32<1>, 2>(&scene, [[5]; 3]), &drawn);
+        let drawn = scene.draw::<i64, i64, _, _, 2>([(); 3], &Count::<()>(PhantomData), 0);
+        prop_assert_eq!(&hits::<i64, i64, Color565, 2>(&scene, [[0x8000; 3]; 3]), &drawn);
+        prop_assert_eq!(&hits::<i64, i64, (), 2>(&scene, [(); 3]), &drawn);
+    }
+
+    /// Of values up to 2^20, within 1/256 of that.
+    #[test]
+    fn values_are_those_of_float64(
+        scene in scene(),
+        carried in prop::array::uniform3(prop::array::uniform2(0..=1 << 20i32)),
+    ) {
+        let scene = Scene {
+            planes: Vec::new(),
+            depth_range: DepthRange::MinusOneToOne,
+            behind: Behind::Cut,
+            cull: Cull::Nothing,
+            is_frustum: true,
+            ..scene
+        };
+        // Farther off a cut is not within 1/100 px.
+        prop_assume!(scene.points.iter().flatten().all(|v| v.abs() <= 100));
+        for beyond in [beyond::<Linear<2>>(&scene, carried, true), beyond::<Perspective<2>>(&scene, carried, false)] {
+            prop_assert!(beyond <= 4096.0, "{} beyond", beyond);
+        }
+    }
+
+    /// Before the camera, where what is linear over the screen is one plane: as with all of the code.
+    #[test]
+    fn values_in_space_are_those_of_all_code(
+        scene in scene(),
+        carried in prop::array::uniform3(prop::array::uniform2(0..=1 << 20i32)),
+    ) {
+        prop_assume!(scene.is_before_camera() && scene.depth_range != DepthRange::Unlimited);
+        let full = scene.draw::<i32, i32, _, _, 2>(carried, &Values::<Perspective<2>>(PhantomData), None);
+        let compact = Compact(Values::<Perspective<2>>(PhantomData));
+        let compact = scene.draw::<i32, i32, _, _, 2>(carried, &compact, None);
+        for (full, compact) in full.into_iter().zip(compact) {
+            prop_assert_eq!(full.is_some(), compact.is_some());
+            let (Some([a, b]), Some([c, d])) = (full, compact) else {
+                continue;
+            };
+            // Either is within ρ·(2^-26·2^20 + 1) + 3 of the plane through corners that are rounded by a unit, with ρ up to 64.
+            let most = a.abs_diff(c).max(b.abs_diff(d));
+            prop_assert!(most <= 2 * (64 + 5), "{:?} {:?}", full, compact);
+        }
+    }
+}
