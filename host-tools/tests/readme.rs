@@ -144,6 +144,7 @@ fn the_flash_is_the_stored_one() {
             "textured",
             "textured in perspective with depth, transformed and clipped",
         ),
+        ("textured_compact", "the same, compact"),
         ("everything", "everything"),
     ];
     let expected = rows.map(|(set, title)| {

@@ -284,6 +284,12 @@ fn in_view<T: Word>(
     view.project::<()>(&vertices, |shape| {
         draw::polygon::<T, _, _, _, _>(&mut color, &mut depth, shape, doubled_area(shape), &Ink);
     });
+    draw::primitive(&view, &mut color, &mut depth, &vertices, &Compact(Ink));
+    let valued = corners.map(|position| Vertex {
+        position,
+        carried: black_box([7; 3]),
+    });
+    draw::primitive(&view, &mut color, &mut depth, &valued, &Compact(Packed));
     let [first, second, _] = vertices;
     if let Some(line) = view.project_line::<()>(&[first, second]) {
         draw::stroke::<T, _, _, _, _>(&mut color, &mut depth, &line, &Ink);

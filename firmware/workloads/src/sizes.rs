@@ -118,8 +118,20 @@ impl Fragment for Textured<'_> {
 
 /// Texture in perspective, with depth.
 pub fn textured(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    each_textured(part, input, |fragment| fragment)
+}
+
+/// As [`textured`], by less code.
+pub fn textured_compact(part: &mut Part<'_>, input: &Input<'_>) -> Result<(), Error> {
+    each_textured(part, input, Compact)
+}
+
+fn each_textured<'a, F>(part: &mut Part<'_>, input: &Input<'a>, of: impl Fn(Textured<'a>) -> F) -> Result<(), Error>
+where
+    F: Fragment<Varying = Perspective<2>, Pixel = u16>,
+{
     let view = view(input, DepthRange::MinusOneToOne)?;
-    let fragment = Textured(Nearest::new(Texture::new(Rgb565, input.texels, 16, 16)?, 16));
+    let fragment = of(Textured(Nearest::new(Texture::new(Rgb565, input.texels, 16, 16)?, 16)));
     let (mut color, mut depth) = part.compared::<Less>()?;
     for points in input.points.as_chunks::<3>().0 {
         let vertices = points.map(|point| vertex(point, |[s, t, _]| [s, t].map(|v| i32::from(v) << 16)));
@@ -154,6 +166,7 @@ mod tests {
             gouraud,
             gouraud_compact,
             textured,
+            textured_compact,
             everything,
         ]
         .map(|draw: Draw| {

@@ -54,7 +54,7 @@ pub struct Command {
     #[arg(long, conflicts_with = "eyelight")]
     pub mesh: bool,
 
-    /// A mesh drawn by a tenth less code, in up to a fifth more instructions
+    /// A mesh drawn by a sixth to two fifths less code, in up to a fifth more instructions
     #[arg(long, requires = "mesh")]
     pub compact: bool,
 }

@@ -177,14 +177,14 @@ impl Mesh {
     fn code_size(&self) -> usize {
         let flat = self.normals.is_some();
         match (flat, self.convex, self.compact) {
-            (true, true, false) => 28_000,
-            (true, true, true) => 25_000,
-            (true, false, false) => 38_000,
-            (true, false, true) => 34_000,
-            (false, true, false) => 41_500,
-            (false, true, true) => 37_000,
-            (false, false, false) => 48_500,
-            (false, false, true) => 43_500,
+            (true, true, false) => 27_500,
+            (true, true, true) => 22_000,
+            (true, false, false) => 37_000,
+            (true, false, true) => 30_500,
+            (false, true, false) => 40_500,
+            (false, true, true) => 25_000,
+            (false, false, false) => 48_000,
+            (false, false, true) => 31_000,
         }
     }
 
