@@ -188,7 +188,7 @@ impl<C: Copy> Slots<'_, C> {
     }
 
     #[inline(never)]
-    pub(crate) fn get_mut(&mut self, index: usize) -> Option<&mut C> {
+    fn get_mut(&mut self, index: usize) -> Option<&mut C> {
         match self.built_in.get_mut(index) {
             Some(corner) => Some(corner),
             None => self.user.get_mut(index.wrapping_sub(BUILT_IN)),
@@ -219,12 +219,6 @@ impl<C: Copy> Slots<'_, C> {
                 core::mem::swap(there, black_box(&mut next));
             }
         }
-        self.truncate(len);
-    }
-
-    /// Leaves the first `len` corners.
-    #[inline]
-    pub(crate) fn truncate(&mut self, len: usize) {
         self.built_in.truncate(len);
         self.user.truncate(len.saturating_sub(BUILT_IN));
     }

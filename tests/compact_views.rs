@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use fixel::clip::{Behind, DepthRange, Planes};
 use fixel::depth::NoDepth;
 use fixel::draw;
-use fixel::fragment::{Compact, Fragment};
+use fixel::fragment::{Compact, Fragment, Gouraud565};
 use fixel::matrix::Matrix;
 use fixel::num::{Block, Scaled, Word};
 use fixel::target::Buffer;
@@ -90,6 +90,24 @@ impl Scene {
         });
         let mut target = Buffer::new(&mut pixels, WIDTH, HEIGHT).unwrap();
         draw::primitive(&self.view::<T, W, N>(), &mut target, &mut NoDepth, &vertices, fragment);
+        pixels
+    }
+
+    /// As [`draw`](Self::draw), of vertices that are projected first.
+    fn draw_indexed<F, P: Copy>(
+        &self,
+        carried: [<F::Varying as Carried>::Vertex; 3],
+        fragment: &F,
+        nothing: P,
+    ) -> Vec<P>
+    where
+        F: Fragment<Varying: Carried, Pixel = P>,
+    {
+        let view = self.view::<i32, i32, 0>();
+        let mut pixels = vec![nothing; usize::from(WIDTH) * usize::from(HEIGHT)];
+        let vertices = [0, 1, 2].map(|i| view.vertex(Block::from_integers(self.points[i]), carried[i]));
+        let mut target = Buffer::new(&mut pixels, WIDTH, HEIGHT).unwrap();
+        draw::indexed(&view, &mut target, &mut NoDepth, &vertices, [[0u16, 1, 2]], fragment);
         pixels
     }
 
@@ -327,5 +345,23 @@ proptest! {
             let most = a.abs_diff(c).max(b.abs_diff(d));
             prop_assert!(most <= 2 * (64 + 5), "{:?} {:?}", full, compact);
         }
+    }
+
+    /// A vertex that was projected before is drawn with the bits of one that is projected for each triangle.
+    #[test]
+    fn projected_once_it_is_the_same(
+        scene in scene(),
+        carried in prop::array::uniform3(prop::array::uniform3(0x8000..=31 << 16i32)),
+    ) {
+        let scene = Scene { planes: Vec::new(), ..scene };
+        let colors = Compact(Gouraud565);
+        prop_assert_eq!(scene.draw::<i32, i32, _, _, 0>(carried, &colors, 0), scene.draw_indexed(carried, &colors, 0));
+        // What is cut off all the same is not what is outside of the picture.
+        if scene.behind == Behind::Divide && !scene.is_on_one_side() {
+            return Ok(());
+        }
+        let carried = carried.map(|[a, b, _]| [a, b]);
+        let values = Compact(Values::<Perspective<2>>(PhantomData));
+        prop_assert_eq!(scene.draw::<i32, i32, _, _, 0>(carried, &values, None), scene.draw_indexed(carried, &values, None));
     }
 }

@@ -34,7 +34,7 @@ pub(crate) trait Painting<V: Varying> {
 struct Point<T, A> {
     /// As many times the point in space as `size` says.
     position: Block<T, 4>,
-    /// Not kept where nothing is carried.
+    /// Not kept up to date where nothing is carried.
     size: Scaled<T>,
     carried: A,
 }
