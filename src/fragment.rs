@@ -52,7 +52,7 @@ pub trait Fragment {
 /// Another fragment program, drawn by less code: where flash is short, or few triangles are small.
 ///
 /// Triangles below 16 columns and rows go the way of the others instead of [one of their own](crate::draw::triangle), and what
-/// vertices carry is cut along with them, in half of the code. The same pixels are covered. What they get is within the bounds that
+/// vertices carry is cut along with them, in less code. The same pixels are covered. What they get is within the bounds that
 /// are stated for triangles and, where nothing is interpolated in 32 bits, for polygons, though not always the same to the last
 /// bit; on any machine and in any strip it is.
 ///
