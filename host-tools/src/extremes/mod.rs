@@ -9,6 +9,8 @@ mod families;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::compare::{Class, Comparison};
 use crate::fixed::dials::Dials;
 use crate::picture::Picture;
@@ -56,11 +58,11 @@ pub fn curves() -> Vec<Curve> {
         family,
         outcomes: family
             .values
-            .iter()
+            .par_iter()
             .map(|&value| (value, outcome(&(family.scene)(value))))
             .collect(),
     };
-    ALL.iter().map(curve).collect()
+    ALL.par_iter().map(curve).collect()
 }
 
 /// Draws one scene, whose texture, if any, is a small picture of ours.

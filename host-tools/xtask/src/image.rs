@@ -11,7 +11,7 @@ use crate::toolchain::Toolchain;
 /// The root of the project.
 pub fn root() -> &'static Path {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    here.parent().unwrap_or(here)
+    here.ancestors().nth(2).unwrap_or(here)
 }
 
 /// Where bare-metal builds go: apart from the host's, which have another compiler's library.
