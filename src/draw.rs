@@ -91,8 +91,12 @@ where
     V: Carried,
     F: Fragment<Pixel = C::Pixel, Varying = V>,
 {
-    if !small_polygon(color, depth, shown, fragment) {
-        any_size::<W, _, _, _, _>(color, depth, shown, &shown.corners, shown.corners.area(), fragment);
+    if <F::Varying as Varying>::Slopes::EXIST
+        && let Some(triangle) = shown.triangle()
+    {
+        shape::<W, _, _, _, _>(color, depth, &triangle, fragment);
+    } else {
+        convex::<W, _, _, _, _, _>(color, depth, shown, &shown.corners, shown.corners.area(), fragment);
     }
 }
 
@@ -198,6 +202,20 @@ where
         }
         return;
     }
+    convex::<W, _, _, _, _, _>(color, depth, shape, outline, area, fragment);
+}
+
+/// As [`large`], of any polygon.
+#[inline(always)]
+fn convex<W, C, D, S, O, F>(color: &mut C, depth: &mut D, shape: &S, outline: &O, area: i64, fragment: &F)
+where
+    W: Word,
+    C: Target,
+    D: Depth,
+    S: Shape<Varying = F::Varying>,
+    O: Corners,
+    F: Fragment<Pixel = C::Pixel>,
+{
     let spans = Scan::<W, _>::new(outline, area > 0);
     if D::ENABLED || <F::Varying as Varying>::Slopes::CARRIES {
         paint(color, depth, shape, &Basis::new(outline), &spans, fragment);

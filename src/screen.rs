@@ -211,9 +211,9 @@ pub(crate) fn end<E>([a, b]: &[E; 2], index: usize) -> &E {
     if index == 0 { a } else { b }
 }
 
-/// Corner `index` of three, the last for any larger index: no bounds to check.
+/// Item `index` of three, the last for any larger index: no bounds to check.
 #[inline(always)]
-fn pick<V>([a, b, c]: &[Corner<V>; 3], index: usize) -> &Corner<V> {
+pub(crate) fn pick<C>([a, b, c]: &[C; 3], index: usize) -> &C {
     match index {
         0 => a,
         1 => b,

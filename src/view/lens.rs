@@ -2,14 +2,15 @@
 
 use core::cmp::Ordering;
 
-use super::carried::{Shares, Wants, Weigh, at_cut, in_clip_space, whole};
+use super::carried::{Shares, Wants, Weigh, at_cut, at_vertices, in_clip_space, whole};
 use super::projected::{Left, Next, PlacedCorner, Places};
 use super::{Carried, Cull, Vertex, View, in_front, w_of};
 use crate::clip::{
-    Behind, ClipCorner, DepthRange, Held, Polygon, Slots, at_far, before_camera, cut_by, is_beyond, to_view,
+    Behind, ClipCorner, DepthRange, Held, Polygon, Slots, at_far, before_camera, cut_by, distance_of, is_beyond,
+    is_in_volume, to_view,
 };
 use crate::matrix::Matrix;
-use crate::num::{Block, Scaled, Word};
+use crate::num::{Block, Scaled, Wide, Word};
 use crate::viewport::Viewport;
 
 /// A [`View`] with any N: what works with this is in a program once.
@@ -29,6 +30,9 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         let positions = vertices.each_ref().map(|v| v.position);
         let mut polygon = Polygon::<_, N>::default();
         let (lens, mut polygon, mut next) = (self.lens(), polygon.slots(), left.next());
+        if lens.whole(&positions, V::WANTS, &mut next.places) {
+            return;
+        }
         if !V::WANTS.screen {
             // Values stay those of the vertices, whatever is cut: what follows is the same for any.
             lens.next(&positions, V::WANTS, &mut polygon, &mut next.places);
@@ -57,6 +61,42 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
 }
 
 impl<T: Word, W: Word> Lens<'_, T, W> {
+    /// Puts a triangle on the screen of which certainly nothing is cut, as of most; whether it did. To the bits of what cuts.
+    #[inline(never)]
+    fn whole<S: Shares>(&self, positions: &[Block<T, 4>; 3], wants: Wants, places: &mut Places<'_, S>) -> bool {
+        let inside = |plane: &Block<T, 4>| {
+            let mut distances = positions.iter().map(|p| distance_of(plane.as_mantissas(), p));
+            distances.all(|distance| distance >= T::Wide::ZERO)
+        };
+        if !self.viewport.is_in_guard() || !self.planes.iter().all(inside) {
+            return false;
+        }
+        let mut vertex_w = [Scaled::ZERO; 3];
+        for (position, w) in positions.iter().zip(&mut vertex_w) {
+            let clip = self.projection.transform(*position);
+            if !is_in_volume(clip.mantissas(), self.depth_range) {
+                places.corners.clear();
+                return false;
+            }
+            let (x, y, depth) = self.viewport.place_seen(clip, self.depth_range);
+            places.corners.push(PlacedCorner {
+                position: (x, y),
+                depth,
+            });
+            *w = w_of(clip);
+        }
+        places.is_next();
+        if wants.space {
+            for weights in &at_vertices(vertex_w) {
+                places.shares.push(S::of(weights));
+            }
+        }
+        if !self.cull.keeps(places.corners.held().area()) {
+            places.corners.clear();
+        }
+        true
+    }
+
     /// The next of what is left of a triangle with values that are linear in space, or none.
     #[inline(never)]
     fn next<S: Shares>(

@@ -2,15 +2,16 @@
 
 use super::{Carried, Shares, Weights};
 use crate::clip::{Held, Polygon, Slots};
-use crate::screen::Shape;
+use crate::screen::{Shape, of_corners, pick};
 use crate::span::{Corners, doubled_area};
+use crate::varying::Varying;
 
 /// A polygon on the screen and what its corners carry, mixed anew whenever it is asked for.
 #[derive(Debug, Clone)]
 pub struct Projected<V: Carried, const N: usize> {
     carried: [V::Vertex; 3],
     corners: Polygon<PlacedCorner, N>,
-    /// What each corner has of the three vertices.
+    /// What each corner has of the three vertices; empty where each is the vertex of its index.
     shares: Polygon<V::Shares, N>,
 }
 
@@ -43,6 +44,57 @@ pub(crate) struct Shown<'p, V: Carried> {
     /// By themselves, what walks them is there once for all that is carried.
     pub(crate) corners: Held<'p, PlacedCorner>,
     shares: Held<'p, V::Shares>,
+}
+
+impl<V: Carried> Shown<'_, V> {
+    /// With three corners, what they carry mixed once: a triangle's is looked at more often.
+    #[inline(always)]
+    pub(crate) fn triangle(&self) -> Option<ShownTriangle<V>> {
+        if self.corners.len() != 3 {
+            return None;
+        }
+        let (a, b, c) = (self.corners.get(0)?, self.corners.get(1)?, self.corners.get(2)?);
+        let varyings = if self.shares.is_empty() {
+            V::whole(*self.carried, || of_corners(Weights::of_vertex))
+        } else {
+            of_corners(|i| self.varying(i))
+        };
+        Some(ShownTriangle {
+            corners: [*a, *b, *c],
+            varyings,
+        })
+    }
+}
+
+/// A [`Shown`] with three corners.
+pub(crate) struct ShownTriangle<V> {
+    corners: [PlacedCorner; 3],
+    varyings: [V; 3],
+}
+
+impl<V> Corners for ShownTriangle<V> {
+    const TRIANGLE: bool = true;
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        3
+    }
+    #[inline(always)]
+    fn position(&self, index: usize) -> (i32, i32) {
+        pick(&self.corners, index).position
+    }
+}
+
+impl<V: Varying> Shape for ShownTriangle<V> {
+    type Varying = V;
+    #[inline(always)]
+    fn depth(&self, index: usize) -> i32 {
+        pick(&self.corners, index).depth
+    }
+    #[inline(always)]
+    fn varying(&self, index: usize) -> V {
+        *pick(&self.varyings, index)
+    }
 }
 
 /// A corner of a [`Projected`].
@@ -91,7 +143,7 @@ impl<V: Carried> Shape for Shown<'_, V> {
     #[inline(never)]
     fn varying(&self, index: usize) -> V {
         let shares = self.shares.get(index).map(Shares::weights);
-        V::mix(*self.carried, &shares.unwrap_or_else(|| Weights::of_vertex(0)))
+        V::mix(*self.carried, &shares.unwrap_or_else(|| Weights::of_vertex(index)))
     }
 }
 

@@ -7,9 +7,8 @@ use crate::edge::first_row;
 use crate::mesh::Normalized;
 use crate::num::product::sign_of_sum;
 use crate::num::{Block, Word};
-use crate::screen::Shape;
+use crate::screen::{Shape, pick};
 use crate::span::{Corners, doubled_area};
-use crate::viewport::DepthScale;
 
 /// A vertex in clip space and on the screen: all that the triangles around it share. Made by [`View::vertex`].
 ///
@@ -70,17 +69,14 @@ impl<T: Word> Placed<T> {
     #[inline]
     pub(super) fn new<W: Word>(view: &View<T, W, 0>, clip: Block<T, 4>) -> Self {
         let (viewport, range) = (&view.viewport, view.depth_range);
-        let in_volume = viewport.is_in_guard() && is_in_volume(clip.mantissas(), range);
-        if in_volume && T::BITS == <i32 as Word>::BITS {
-            let mantissas = clip.mantissas().map(T::low_i32);
-            let place = viewport.place_in_volume(mantissas, DepthScale::new(range));
+        if viewport.is_in_guard() && is_in_volume(clip.mantissas(), range) {
             return Placed {
                 clip,
-                place,
+                place: viewport.place_seen(clip, range),
                 outcode: 0,
             };
         }
-        let outcode = if in_volume { 0 } else { view.outcode(clip) };
+        let outcode = view.outcode(clip);
         let place = if outcode == 0 {
             viewport.place_inside(clip, range)
         } else {
@@ -154,16 +150,6 @@ impl<'v, T: Word, V: Carried> Triangle<'v, T, V> {
     fn is_between_samples(&self) -> bool {
         let [a, b, c] = self.vertices;
         fits_between(a.x, b.x, c.x) || fits_between(a.y, b.y, c.y)
-    }
-}
-
-/// Item `index` of three, the last for any larger one: no bounds to check.
-#[inline(always)]
-fn pick<C>([a, b, c]: &[C; 3], index: usize) -> &C {
-    match index {
-        0 => a,
-        1 => b,
-        _ => c,
     }
 }
 
