@@ -455,9 +455,9 @@ fn w_of<T: Word>(corner: &ClipCorner<T>) -> T {
     w
 }
 
-/// Whether a corner lies beyond the far plane.
-pub(crate) fn is_beyond<T: Word>(corner: &ClipCorner<T>, range: DepthRange) -> bool {
-    range != DepthRange::Unlimited && distance_of(&far_plane(), &corner.position) < T::Wide::ZERO
+/// Whether a position lies beyond the far plane.
+pub(crate) fn is_beyond<T: Word>(position: &Block<T, 4>, range: DepthRange) -> bool {
+    range != DepthRange::Unlimited && distance_of(&far_plane(), position) < T::Wide::ZERO
 }
 
 /// Where the edge from `inner` to `outer`, which [is beyond](is_beyond) the far plane, crosses that.

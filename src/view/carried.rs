@@ -560,6 +560,9 @@ pub(crate) fn in_clip_space<T: Word>(corner: &ClipCorner<T>) -> Weights {
 /// Shares of a corner that the near plane made (formats: `.iv`, clipping). Linear in clip space is linear in space; over
 /// the screen only where all vertices of the corner have a place there.
 pub(super) fn at_cut<T: Word>(corner: &ClipCorner<T>, vertex_w: [Scaled<T>; 3]) -> Weights {
+    if let Some(vertex) = vertex_of(corner) {
+        return Weights::of_vertex(vertex as usize);
+    }
     let Weights { space, .. } = in_clip_space(corner);
     let mut parts = corner.weights.split().into_iter().zip(vertex_w);
     let on_screen = parts.all(|(part, w)| part.is_zero() || in_front(w));
@@ -570,7 +573,7 @@ pub(super) fn at_cut<T: Word>(corner: &ClipCorner<T>, vertex_w: [Scaled<T>; 3]) 
             space
         },
         space,
-        vertex: vertex_of(corner),
+        vertex: None,
         affine: true,
     }
 }

@@ -68,26 +68,36 @@ impl<T: Word, W: Word> Lens<'_, T, W> {
             let mut distances = positions.iter().map(|p| distance_of(plane.as_mantissas(), p));
             distances.all(|distance| distance >= T::Wide::ZERO)
         };
-        if !self.viewport.is_in_guard() || !self.planes.iter().all(inside) {
+        if !self.planes.iter().all(inside) {
             return false;
         }
-        let mut vertex_w = [Scaled::ZERO; 3];
-        for (position, w) in positions.iter().zip(&mut vertex_w) {
-            let clip = self.projection.transform(*position);
-            if !is_in_volume(clip.mantissas(), self.depth_range) {
-                places.corners.clear();
-                return false;
-            }
-            let (x, y, depth) = self.viewport.place_seen(clip, self.depth_range);
+        let mut clip = [Block::ZERO; 3];
+        for (to, &position) in clip.iter_mut().zip(positions) {
+            *to = self.projection.transform(position);
+        }
+        self.put_whole(&clip, wants, places)
+    }
+
+    /// Puts a triangle in clip space on the screen if that takes no cut; whether it did.
+    #[inline(never)]
+    fn put_whole<S: Shares>(&self, clip: &[Block<T, 4>; 3], wants: Wants, places: &mut Places<'_, S>) -> bool {
+        let in_volume = |p: &Block<T, 4>| is_in_volume(p.mantissas(), self.depth_range);
+        if !self.viewport.is_in_guard() || !clip.iter().all(in_volume) {
+            return false;
+        }
+        if !places.is_next() {
+            return true;
+        }
+        places.clear();
+        for &position in clip {
+            let (x, y, depth) = self.viewport.place_seen(position, self.depth_range);
             places.corners.push(PlacedCorner {
                 position: (x, y),
                 depth,
             });
-            *w = w_of(clip);
         }
-        places.is_next();
         if wants.space {
-            for weights in &at_vertices(vertex_w) {
+            for weights in &at_vertices(clip.map(w_of)) {
                 places.shares.push(S::of(weights));
             }
         }
@@ -204,9 +214,14 @@ impl<T: Word, W: Word> Lens<'_, T, W> {
                 *second = corner;
             }
         };
-        let ends = polygon.held().iter().skip(1).chain(polygon.held().get(0));
-        for (a, b) in polygon.held().iter().zip(ends) {
-            let (start, end) = (made(a), made(b));
+        let corners = polygon.held();
+        let Some(first) = corners.get(0) else {
+            return;
+        };
+        let first = made(first);
+        let mut start = first;
+        for i in 1..=corners.len() {
+            let end = corners.get(i).map_or(first, made);
             let crossing = self.to_far::<V>(&start, &end);
             if crossing.stays {
                 next(start);
@@ -214,28 +229,34 @@ impl<T: Word, W: Word> Lens<'_, T, W> {
             if let Some(corner) = crossing.corner {
                 next(corner);
             }
+            start = end;
         }
     }
 
     /// A triangle of corners that clipping has made.
     #[inline(never)]
     fn part<V: Carried>(&self, corners: [&Made<T, V::Vertex>; 3], next: &mut Next<'_, V>) {
+        next.carry(&corners.map(|corner| corner.carried));
+        if !V::WANTS.space && self.put_whole(&corners.map(|corner| corner.position), V::WANTS, &mut next.places) {
+            return;
+        }
         let mut polygon: Polygon<_, 0> = Made::corners(corners).into_iter().collect();
         let w = corners.map(Made::w);
-        next.carry(&corners.map(|corner| corner.carried));
         self.finish(&mut polygon.slots(), w, V::WANTS, &mut next.places);
     }
 
     /// Cuts off what is beyond the far plane of an edge, values being linear over the screen along it.
     #[inline(never)]
     fn to_far<V: Carried>(&self, a: &Made<T, V::Vertex>, b: &Made<T, V::Vertex>) -> ToFar<T, V::Vertex> {
-        let [start, end] = Made::corners([a, b]);
-        let beyond = [&start, &end].map(|corner| is_beyond(corner, self.depth_range));
-        let corner = match beyond {
-            [false, true] => Some(at_far(&start, &end)),
-            [true, false] => Some(at_far(&end, &start)),
-            _ => None,
-        };
+        let beyond = [a, b].map(|corner| is_beyond(&corner.position, self.depth_range));
+        let corner = (beyond[0] != beyond[1]).then(|| {
+            let [start, end] = Made::corners([a, b]);
+            if beyond[0] {
+                at_far(&end, &start)
+            } else {
+                at_far(&start, &end)
+            }
+        });
         ToFar {
             stays: !beyond[0],
             corner: corner.map(|corner| Made {
@@ -278,8 +299,7 @@ impl<T: Word, W: Word> Lens<'_, T, W> {
         if !places.is_next() {
             return;
         }
-        places.corners.clear();
-        places.shares.clear();
+        places.clear();
         if to_view(polygon, self.viewport, self.depth_range, self.behind).is_some() {
             self.place(polygon.held(), vertex_w, wants, places);
         }

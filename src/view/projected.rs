@@ -252,6 +252,13 @@ pub(crate) struct Places<'l, S> {
 }
 
 impl<S: Shares> Places<'_, S> {
+    /// Nothing of any that was found before.
+    #[inline]
+    pub(super) fn clear(&mut self) {
+        self.corners.clear();
+        self.shares.clear();
+    }
+
     /// Whether what is found now is the one.
     #[inline]
     pub(super) fn is_next(&mut self) -> bool {
