@@ -172,18 +172,8 @@ impl<W: Word> Viewport<W> {
         )
     }
 
-    /// As [`place`](Self::place), to the same bits, for a position in the view volume, where that lies in the guard band.
-    #[inline(always)]
-    pub(crate) fn place_seen<T: Word>(&self, position: Block<T, 4>, range: DepthRange) -> (i32, i32, i32) {
-        if T::BITS == <i32 as Word>::BITS {
-            let mantissas = position.mantissas().map(T::low_i32);
-            self.place_in_volume(mantissas, DepthScale::new(range))
-        } else {
-            self.place_inside(position, range)
-        }
-    }
-
-    /// As [`place_seen`](Self::place_seen), for words of 32 bits: by one reciprocal. `mantissas` are below 2^31 and share any scale.
+    /// As [`place`](Self::place), to the same bits, for a position in the view volume, where that lies in the guard band: by
+    /// one reciprocal. `mantissas` are below 2^31 and share any scale.
     ///
     /// About 50 instructions on Cortex-M4.
     #[inline(always)]

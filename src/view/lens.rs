@@ -6,8 +6,8 @@ use super::carried::{Shares, Wants, Weigh, at_cut, at_vertices, in_clip_space, w
 use super::projected::{Left, Next, PlacedCorner, Places};
 use super::{Carried, Cull, Vertex, View, in_front, w_of};
 use crate::clip::{
-    Behind, ClipCorner, DepthRange, Held, Polygon, Slots, at_far, before_camera, cut_by, distance_of, is_beyond,
-    is_in_volume, to_view,
+    Behind, ClipCorner, DepthRange, Held, Polygon, ScreenPlanes, Slots, at_far, before_camera, cut_by, distance_of,
+    is_beyond, is_in_volume, to_view,
 };
 use crate::matrix::Matrix;
 use crate::num::{Block, Scaled, Wide, Word};
@@ -30,17 +30,16 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
         let positions = vertices.each_ref().map(|v| v.position);
         let mut polygon = Polygon::<_, N>::default();
         let (lens, mut polygon, mut next) = (self.lens(), polygon.slots(), left.next());
-        if lens.whole(&positions, V::WANTS, &mut next.places) {
+        let Some(Taken { vertex_w, cuts }) = lens.take(&positions, V::WANTS, &mut polygon, &mut next.places) else {
             return;
-        }
+        };
         if !V::WANTS.screen {
             // Values stay those of the vertices, whatever is cut: what follows is the same for any.
-            lens.next(&positions, V::WANTS, &mut polygon, &mut next.places);
+            lens.cut_at_infinity(&mut polygon, vertex_w, V::WANTS, &mut next.places);
             return;
         }
-        let vertex_w = lens.clip(&positions, &mut polygon);
         let carried = vertices.each_ref().map(|v| v.carried);
-        if V::WANTS.fan && !self.planes.is_empty() {
+        if V::WANTS.fan && cuts {
             lens.fan::<V>(&polygon, &carried, &mut next);
         } else {
             lens.cut::<V>(&mut polygon, vertex_w, &carried, &mut next);
@@ -61,82 +60,92 @@ impl<T: Word, W: Word, const N: usize> View<T, W, N> {
 }
 
 impl<T: Word, W: Word> Lens<'_, T, W> {
-    /// Puts a triangle on the screen of which certainly nothing is cut, as of most; whether it did. To the bits of what cuts.
+    /// Takes what user planes leave of a triangle to clip space; none where nothing is cut from it there either, as from most: then it
+    /// is [put](Self::put_whole) on the screen, to the bits of what cuts.
     #[inline(never)]
-    fn whole<S: Shares>(&self, positions: &[Block<T, 4>; 3], wants: Wants, places: &mut Places<'_, S>) -> bool {
-        let inside = |plane: &Block<T, 4>| {
-            let mut distances = positions.iter().map(|p| distance_of(plane.as_mantissas(), p));
-            distances.all(|distance| distance >= T::Wide::ZERO)
-        };
-        if !self.planes.iter().all(inside) {
-            return false;
-        }
+    fn take<S: Shares>(
+        &self,
+        positions: &[Block<T, 4>; 3],
+        wants: Wants,
+        polygon: &mut Slots<'_, ClipCorner<T>>,
+        places: &mut Places<'_, S>,
+    ) -> Option<Taken<T>> {
         let mut clip = [Block::ZERO; 3];
         for (to, &position) in clip.iter_mut().zip(positions) {
             *to = self.projection.transform(position);
         }
-        self.put_whole(&clip, wants, places)
+        let is_cut = |plane: &Block<T, 4>| {
+            let is_outside = |p| distance_of(plane.as_mantissas(), p) < T::Wide::ZERO;
+            positions.iter().any(is_outside)
+        };
+        let cuts = self.planes.iter().any(is_cut);
+        if !cuts && self.put_whole(&clip, wants, places) {
+            return None;
+        }
+        for corner in ClipCorner::of_vertices(if cuts { *positions } else { clip }) {
+            polygon.push(corner);
+        }
+        if cuts {
+            cut_by(self.planes, polygon);
+            polygon.each(|corner| corner.position = self.projection.transform(corner.position));
+        }
+        Some(Taken {
+            vertex_w: clip.map(w_of),
+            cuts,
+        })
     }
 
     /// Puts a triangle in clip space on the screen if that takes no cut; whether it did.
     #[inline(never)]
     fn put_whole<S: Shares>(&self, clip: &[Block<T, 4>; 3], wants: Wants, places: &mut Places<'_, S>) -> bool {
-        let in_volume = |p: &Block<T, 4>| is_in_volume(p.mantissas(), self.depth_range);
-        if !self.viewport.is_in_guard() || !clip.iter().all(in_volume) {
-            return false;
+        let is_next = places.awaits();
+        if is_next {
+            places.clear();
+        }
+        for &position in clip {
+            let Some((x, y, depth)) = self.place_whole(position) else {
+                if is_next {
+                    places.clear();
+                }
+                return false;
+            };
+            if is_next {
+                places.corners.push(PlacedCorner {
+                    position: (x, y),
+                    depth,
+                });
+            }
         }
         if !places.is_next() {
             return true;
-        }
-        places.clear();
-        for &position in clip {
-            let (x, y, depth) = self.viewport.place_seen(position, self.depth_range);
-            places.corners.push(PlacedCorner {
-                position: (x, y),
-                depth,
-            });
         }
         if wants.space {
             for weights in &at_vertices(clip.map(w_of)) {
                 places.shares.push(S::of(weights));
             }
         }
-        if !self.cull.keeps(places.corners.held().area()) {
-            places.corners.clear();
-        }
+        self.cull(places);
         true
     }
 
-    /// The next of what is left of a triangle with values that are linear in space, or none.
+    /// Leaves no corners of what is not drawn.
     #[inline(never)]
-    fn next<S: Shares>(
-        &self,
-        positions: &[Block<T, 4>; 3],
-        wants: Wants,
-        polygon: &mut Slots<'_, ClipCorner<T>>,
-        places: &mut Places<'_, S>,
-    ) {
-        let vertex_w = self.clip(positions, polygon);
-        self.cut_at_infinity(polygon, vertex_w, wants, places);
+    fn cull<S: Shares>(&self, places: &mut Places<'_, S>) {
+        if !self.cull.keeps(places.corners.held().area()) {
+            places.corners.clear();
+        }
     }
 
-    /// Leaves of a triangle what user planes keep, and takes it to clip space; w of the vertices.
-    #[inline(never)]
-    fn clip(&self, positions: &[Block<T, 4>; 3], polygon: &mut Slots<'_, ClipCorner<T>>) -> [Scaled<T>; 3] {
-        for corner in ClipCorner::of_vertices(*positions) {
-            polygon.push(corner);
+    /// Where a position lies on the screen, unless it lies outside of a plane.
+    #[inline]
+    fn place_whole(&self, position: Block<T, 4>) -> Option<(i32, i32, i32)> {
+        let is_seen = || self.viewport.is_in_guard() && is_in_volume(position.mantissas(), self.depth_range);
+        let planes = || ScreenPlanes::new(self.viewport, self.depth_range);
+        if is_seen() || planes().outcode(position.mantissas()) == 0 {
+            self.viewport.place(position, self.depth_range)
+        } else {
+            None
         }
-        cut_by(self.planes, polygon);
-        polygon.each(|corner| corner.position = self.projection.transform(corner.position));
-        let mut vertex_w = [Scaled::ZERO; 3];
-        for (i, (w, &position)) in vertex_w.iter_mut().zip(positions).enumerate() {
-            // Without planes its corners are the vertices.
-            *w = match polygon.held().get(i) {
-                Some(corner) if self.planes.is_empty() => w_of(corner.position),
-                _ => w_of(self.projection.transform(position)),
-            };
-        }
-        vertex_w
     }
 
     /// Whether a triangle has to be cut [where it passes the camera](Self::across).
@@ -330,6 +339,14 @@ impl<T: Word, W: Word> Lens<'_, T, W> {
             corners.clear();
         }
     }
+}
+
+/// A triangle that has to be cut.
+struct Taken<T> {
+    /// w of its vertices.
+    vertex_w: [Scaled<T>; 3],
+    /// Whether user planes have cut it.
+    cuts: bool,
 }
 
 /// A corner that clipping has made, and what a vertex in its place would carry.

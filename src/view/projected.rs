@@ -81,7 +81,7 @@ impl<V> Corners for ShownTriangle<V> {
     }
     #[inline(always)]
     fn position(&self, index: usize) -> (i32, i32) {
-        pick(&self.corners, index).position
+        self.corners.position(index)
     }
 }
 
@@ -102,6 +102,19 @@ impl<V: Varying> Shape for ShownTriangle<V> {
 pub(crate) struct PlacedCorner {
     pub(crate) position: (i32, i32),
     pub(crate) depth: i32,
+}
+
+impl Corners for [PlacedCorner; 3] {
+    const TRIANGLE: bool = true;
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        3
+    }
+    #[inline(always)]
+    fn position(&self, index: usize) -> (i32, i32) {
+        pick(self, index).position
+    }
 }
 
 impl Held<'_, PlacedCorner> {
@@ -259,10 +272,16 @@ impl<S: Shares> Places<'_, S> {
         self.shares.clear();
     }
 
+    /// Whether what is found next is the one.
+    #[inline]
+    pub(super) fn awaits(&self) -> bool {
+        *self.found == self.drawn
+    }
+
     /// Whether what is found now is the one.
     #[inline]
     pub(super) fn is_next(&mut self) -> bool {
-        let next = *self.found == self.drawn;
+        let next = self.awaits();
         *self.found = self.found.wrapping_add(1);
         next
     }

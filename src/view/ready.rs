@@ -9,6 +9,7 @@ use crate::num::product::sign_of_sum;
 use crate::num::{Block, Word};
 use crate::screen::{Shape, pick};
 use crate::span::{Corners, doubled_area};
+use crate::viewport::DepthScale;
 
 /// A vertex in clip space and on the screen: all that the triangles around it share. Made by [`View::vertex`].
 ///
@@ -69,14 +70,17 @@ impl<T: Word> Placed<T> {
     #[inline]
     pub(super) fn new<W: Word>(view: &View<T, W, 0>, clip: Block<T, 4>) -> Self {
         let (viewport, range) = (&view.viewport, view.depth_range);
-        if viewport.is_in_guard() && is_in_volume(clip.mantissas(), range) {
+        let in_volume = viewport.is_in_guard() && is_in_volume(clip.mantissas(), range);
+        if in_volume && T::BITS == <i32 as Word>::BITS {
+            let mantissas = clip.mantissas().map(T::low_i32);
+            let place = viewport.place_in_volume(mantissas, DepthScale::new(range));
             return Placed {
                 clip,
-                place: viewport.place_seen(clip, range),
+                place,
                 outcode: 0,
             };
         }
-        let outcode = view.outcode(clip);
+        let outcode = if in_volume { 0 } else { view.outcode(clip) };
         let place = if outcode == 0 {
             viewport.place_inside(clip, range)
         } else {
