@@ -195,32 +195,23 @@ impl<C: Copy> Slots<'_, C> {
         }
     }
 
-    /// Puts a corner before corner `index`.
-    #[inline(never)]
-    fn insert(&mut self, index: usize, mut corner: C) {
-        for i in index..self.held().len() {
-            if let Some(there) = self.get_mut(i) {
-                core::mem::swap(there, &mut corner);
-            }
-        }
-        self.push(corner);
+    /// Leaves the first `count` corners.
+    #[inline]
+    fn truncate(&mut self, count: usize) {
+        self.built_in.truncate(count);
+        self.user.truncate(count.saturating_sub(BUILT_IN));
     }
 
-    /// Takes `count` corners away, from corner `index` on.
+    /// Makes this corner `index`, of those there are or the one behind them.
+    ///
+    /// A function of its own, as all that looks for a place is.
     #[inline(never)]
-    fn remove(&mut self, index: usize, count: usize) {
-        let len = self.held().len().saturating_sub(count);
-        for i in index..len {
-            let Some(&(mut next)) = self.held().get(i.wrapping_add(count)) else {
-                return;
-            };
+    fn put(&mut self, index: usize, corner: &mut C) {
+        match self.get_mut(index) {
             // Exchanged word by word: copied, it would be `memmove`, which nothing else in a program needs.
-            if let Some(there) = self.get_mut(i) {
-                core::mem::swap(there, black_box(&mut next));
-            }
+            Some(there) => core::mem::swap(there, black_box(corner)),
+            None => self.push(*corner),
         }
-        self.built_in.truncate(len);
-        self.user.truncate(len.saturating_sub(BUILT_IN));
     }
 
     /// One corner more; beyond 9 + N it is left out, which [`cut`] never needs.
@@ -310,9 +301,8 @@ impl<T: Word, const N: usize> Planes<T, N> {
             };
             let crosses_last = is_inside(0) != is_inside(corners.held().len().wrapping_sub(1));
             cut(corners, plane.mantissas());
-            if crosses_last && let Some(&last) = corners.held().get(corners.held().len().wrapping_sub(1)) {
-                corners.remove(corners.held().len() - 1, 1);
-                corners.insert(0, last);
+            if crosses_last && let Some(&(mut before)) = corners.held().get(corners.held().len().wrapping_sub(1)) {
+                corners.each(|corner| core::mem::swap(corner, &mut before));
             }
         }
         (!polygon.is_empty()).then_some(polygon)
@@ -500,64 +490,40 @@ pub(crate) fn to_view<T: Word, W: Word>(
 /// Keeps the part of a convex polygon whose distance is at least 0; none of it where no corner's is. Two corners are a
 /// line, and stay one: they have one edge, not one there and one back.
 ///
-/// Exactly one run of corners is cut away, the one that holds the outermost, so that a polygon grows by at most one
-/// corner per plane. Rounding can leave another corner a last place outside; it stays where it is.
+/// A convex polygon leaves a plane once and comes back once, so that it grows by at most one corner per plane. One that is so thin
+/// that it leaves twice, by rounding, loses a corner.
 ///
 /// One function for all planes, which are data: inlined for each, cutting is most of a small program's code. In place: a
 /// second polygon is more stack than all else that clipping needs.
 #[inline(never)]
 pub(crate) fn cut<T: Word>(polygon: &mut Slots<'_, ClipCorner<T>>, plane: [T; 4]) {
-    let of = |corner: &ClipCorner<T>| distance_of(&plane, &corner.position);
-    // Mantissas are normalised per corner, so that distances compare as angles do.
-    let (mut outermost, mut least) = (0, T::Wide::ZERO);
-    for (i, corner) in polygon.held().iter().enumerate() {
-        let distance = of(corner);
-        if distance < least {
-            (outermost, least) = (i, distance);
-        }
-    }
-    if least >= T::Wide::ZERO {
-        return;
-    }
-    // Counted from the outermost on, the corners that stay are those from the first to the last inside.
+    let is_inside = |corner: &ClipCorner<T>| distance_of(&plane, &corner.position) >= T::Wide::ZERO;
     let count = polygon.held().len();
-    let after = |i: usize| if i < count { i } else { i - count };
-    let (mut first, mut last) = (count, 0);
-    for i in 1..count {
-        if polygon
-            .held()
-            .get(after(outermost + i))
-            .is_some_and(|c| of(c) >= T::Wide::ZERO)
-        {
-            (first, last) = (first.min(i), i);
-        }
-    }
-    if first > last {
-        polygon.clear();
-        return;
-    }
-    // The corners that stay run from `enter` to `leave`.
-    let (enter, leave) = (after(outermost + first), after(outermost + last));
-    let edge =
-        |inner: usize, outer: usize| Some(crossing(polygon.held().get(inner)?, polygon.held().get(outer)?, plane));
-    let edges = (edge(enter, after(outermost + first - 1)), edge(leave, after(leave + 1)));
-    let (Some(entering), Some(leaving)) = edges else {
+    let Some(&first) = polygon.held().get(0) else {
         return;
     };
-    if count == 2 {
-        polygon.remove(outermost, 1);
-        polygon.insert(outermost, leaving);
-    } else if enter <= leave && enter > 0 {
-        // The first corner goes, and perhaps others at both ends.
-        polygon.remove(leave + 1, count - 1 - leave);
-        polygon.remove(0, enter);
-        polygon.insert(0, entering);
-        polygon.push(leaving);
-    } else {
-        polygon.remove(leave + 1, count - 1 - (last - first));
-        polygon.insert(leave + 1, leaving);
-        polygon.insert(leave + 2, entering);
+    let first_inside = is_inside(&first);
+    // The corner that an edge runs from, whether it stays, and how many corners do before it.
+    let (mut corner, mut inside, mut kept) = (first, first_inside, 0_usize);
+    for i in 1..=count {
+        // Read before its place is taken.
+        let next = polygon.held().get(i).copied().unwrap_or(first);
+        let is_edge = i < count || count > 2;
+        let next_inside = if i < count { is_inside(&next) } else { first_inside };
+        if inside {
+            if kept.wrapping_add(1) != i {
+                polygon.put(kept, &mut corner);
+            }
+            kept = kept.wrapping_add(1);
+        }
+        if inside != next_inside && is_edge && kept <= i {
+            let (inner, outer) = if inside { (&corner, &next) } else { (&next, &corner) };
+            polygon.put(kept, &mut crossing(inner, outer, plane));
+            kept = kept.wrapping_add(1);
+        }
+        (corner, inside) = (next, next_inside);
     }
+    polygon.truncate(kept);
 }
 
 /// Where the edge from `inner` to `outer` crosses the plane.
