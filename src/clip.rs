@@ -512,7 +512,7 @@ pub(crate) fn cut<T: Word>(polygon: &mut Slots<'_, ClipCorner<T>>, plane: [T; 4]
         let next_inside = if i < count { is_inside(&next) } else { first_inside };
         if inside {
             if kept.wrapping_add(1) != i {
-                polygon.put(kept, &mut corner);
+                polygon.put(kept, &mut { corner });
             }
             kept = kept.wrapping_add(1);
         }
