@@ -487,6 +487,11 @@ impl<T: Word> Weigh<T> {
 
     #[inline(never)]
     fn shares(&self, corner: &ClipCorner<T>) -> Weights {
+        let vertex = vertex_of(corner);
+        // Nothing of it is mixed, and nothing divided by its w.
+        if let (Some(vertex), true) = (vertex, self.affine || !self.wants.space) {
+            return Weights::of_vertex(vertex as usize);
+        }
         let on_screen = if self.wants.screen || (self.wants.space && self.affine) {
             over_screen(corner, self.vertex_w)
         } else {
@@ -502,7 +507,7 @@ impl<T: Word> Weigh<T> {
         Weights {
             screen: on_screen,
             space,
-            vertex: vertex_of(corner),
+            vertex,
             affine: self.affine,
         }
     }
