@@ -4,9 +4,9 @@ use super::product::high;
 
 /// floor(2^63 / `divisor`), exactly, for a normalised divisor in 2^31…2^32−1; the result lies in 2^31…2^32.
 ///
-/// A seed from a table of 128 entries is within 2^-8, each of two Newton steps squares the error, and a last
-/// comparison with the remainder removes what is left (numerics: a 128-entry table and two steps give 2^-31). No divide
-/// instruction, so that a core without one pays the same. A divisor below 2^31 is taken as 2^31.
+/// A seed from a table of 128 entries is within 2^-8, each of two Newton steps squares the error, and what the remainder is
+/// worth is added (numerics: a 128-entry table and two steps give 2^-31). No divide instruction, so that a core without one
+/// pays the same. A divisor below 2^31 is taken as 2^31.
 ///
 /// ```
 /// use fixel::num::reciprocal;
@@ -16,25 +16,14 @@ use super::product::high;
 #[inline]
 pub fn reciprocal(divisor: u32) -> u64 {
     let divisor = divisor.max(1 << 31);
-    let seed = SEEDS.get(((divisor >> 24) & 127) as usize).copied().unwrap_or(u16::MAX);
-    // x ≈ 2^63/divisor, at most 2^32 − 1 through the steps so that the products fit 64 bits.
-    let mut x = (seed as u64) << 16;
-    for _ in 0..2 {
-        // x·(2 − d·x) with d·x in units of 2^-63: the difference from 2^63 keeps its sign in 64 bits.
-        let error = (1u64 << 63).wrapping_sub(x.wrapping_mul(divisor as u64)) as i64;
-        let correction = ((error >> 31) * (x as i64 >> 1)) >> 31;
-        x = (x as i64 + correction).clamp(1 << 31, u32::MAX as i64) as u64;
-    }
-    // The steps come from below: of all divisors, none has more than two left to the exact floor (`tests/reciprocal.rs` walks
-    // them). Not a loop until the remainder is small, which compilers take for a division and make one of.
-    let mut remainder = (1u64 << 63).wrapping_sub(x.wrapping_mul(divisor as u64));
-    for _ in 0..2 {
-        if remainder >= divisor as u64 {
-            remainder -= divisor as u64;
-            x += 1;
-        }
-    }
-    x
+    // Twice of what is less than 4 units below: less than 8 below 2^63/divisor.
+    let near = near_reciprocal(divisor);
+    let below = (near as u32) << 1;
+    let rest = (1u64 << 63).wrapping_sub(below as u64 * divisor as u64);
+    // rest/divisor, 8 at most, rounded down or one less: 31 bits of the rest by 31 of the reciprocal.
+    let more = (high((rest >> 4) as i32, near) >> 26) as u32;
+    let left = rest.wrapping_sub(more as u64 * divisor as u64);
+    below as u64 + (more + (left >= divisor as u64) as u32) as u64
 }
 
 /// 2^62 / `divisor` from below, by less than 4 units, for a normalised divisor in 2^31…2^32−1; the result lies in

@@ -1,6 +1,7 @@
 //! Values in perspective, divided at every pixel, in words of 64 bits.
 
 use core::convert::Infallible;
+use core::hint::black_box;
 
 use super::{Varying, each, hold, settle, widen};
 use crate::gradient::{Basis, EXTRA_BITS, Place, Plane, Ramp};
@@ -153,36 +154,130 @@ impl<const N: usize> Varying for Perspective<N> {
 }
 
 /// 1/w of one pixel, ready to divide by: one reciprocal for all values.
+///
+/// On Cortex-M4 some 65 instructions, and 30 for each value.
 struct Divisor {
-    /// 2^63 / (|1/w| · 2^(shift − 29)).
-    reciprocal: u64,
+    /// 1/w.
+    inverse: i64,
+    /// 2^63 / (|1/w| · 2^(shift − 29)), less 2^32: from −2^31 to 0.
+    reciprocal: i32,
     /// Takes |1/w| into 2^60…2^61.
     shift: u32,
-    negative: bool,
+    /// Before the camera, and no less than 2^-12 of the largest 1/w.
+    is_usual: bool,
 }
 
 impl Divisor {
     #[inline(always)]
     fn new(inverse: i64) -> Self {
-        let magnitude = inverse.unsigned_abs().max(1);
-        let shift = magnitude.leading_zeros().saturating_sub(3);
+        let upper = (inverse >> 32) as u32;
+        let is_usual = upper.wrapping_sub(1) < (1 << 28) - 1;
+        let (shift, divisor) = if is_usual {
+            let zeros = upper.leading_zeros();
+            let lower = inverse as u32 >> (32u32.wrapping_sub(zeros) & 31);
+            (zeros.wrapping_sub(3), upper.wrapping_shl(zeros) | lower)
+        } else {
+            Self::unusual(inverse)
+        };
         Divisor {
-            reciprocal: reciprocal(((magnitude << shift) >> 29) as u32),
+            inverse,
+            reciprocal: reciprocal(divisor) as i32,
             shift,
-            negative: inverse < 0,
+            is_usual,
         }
     }
 
-    /// `over_w` / inverse, in units of the values (2^30 of `over_w`), saturating.
+    #[cold]
+    #[inline(never)]
+    fn unusual(inverse: i64) -> (u32, u32) {
+        let magnitude = inverse.unsigned_abs().max(1);
+        let shift = magnitude.leading_zeros().saturating_sub(3);
+        (shift, ((magnitude << shift) >> 29) as u32)
+    }
+
+    /// `over_w` / inverse, in units of the values (2^30 of `over_w`), to the nearest and saturating: so that where a quotient is
+    /// a whole number, as on a border of texels, it is that.
     #[inline(always)]
     fn divide(&self, over_w: i64) -> i32 {
-        let over_w = if self.negative { -over_w } else { over_w };
-        // A quotient of 2^31 or more: only next to the pole of mixed signs, or where 1/w is all rounding.
-        if over_w.unsigned_abs().leading_zeros() < self.shift + 2 {
-            return if over_w < 0 { i32::MIN } else { i32::MAX };
+        if self.is_usual {
+            let top = over_w >> (31u32.wrapping_sub(self.shift) & 31);
+            Self::quotient(over_w, top, self.reciprocal)
+        } else {
+            Self::divide_unusual(over_w, self.inverse < 0, self.shift, self.reciprocal)
         }
-        // To the nearest, so that where a quotient is a whole number, as on a border of texels, it is that.
-        let quotient = (((over_w << self.shift) >> 31) * self.reciprocal as i64 + (1 << 30)) >> 31;
-        quotient.max(i32::MIN as i64).min(i32::MAX as i64) as i32
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn divide_unusual(over_w: i64, negative: bool, shift: u32, reciprocal: i32) -> i32 {
+        let over_w = if negative { -over_w } else { over_w };
+        let top = match 31u32.checked_sub(shift) {
+            Some(right) => over_w >> right,
+            None => over_w.saturating_mul(1 << (shift & 31) << 1),
+        };
+        Self::quotient(over_w, top, reciprocal)
+    }
+
+    /// `top` is over_w · 2^(shift − 31).
+    #[inline(always)]
+    fn quotient(over_w: i64, top: i64, reciprocal: i32) -> i32 {
+        let saturated = if over_w < 0 { i32::MIN } else { i32::MAX };
+        // A quotient of 2^31 or more: only next to the pole of mixed signs, or where 1/w is all rounding.
+        let Ok(top) = i32::try_from(top) else {
+            return saturated;
+        };
+        // As a word, which the compiler would look through and multiply as a long one.
+        let top = black_box(top) as i64;
+        // Times the reciprocal, which is 2^32 more than kept: between ±2^63.
+        let product = top * reciprocal as i64 + (top << 32) + (1 << 30);
+        i32::try_from(product >> 31).unwrap_or(saturated)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As [`Divisor::divide`], in words in which nothing overflows.
+    fn plain(over_w: i64, inverse: i64) -> i32 {
+        let over_w = over_w as i128 * inverse.signum() as i128;
+        let magnitude = inverse.unsigned_abs();
+        let shift = magnitude.leading_zeros() - 3;
+        let reciprocal = (1u128 << 63) / ((magnitude << shift) >> 29) as u128;
+        let quotient = (((over_w << shift) >> 31) * reciprocal as i128 + (1 << 30)) >> 31;
+        quotient.clamp(i32::MIN as i128, i32::MAX as i128) as i32
+    }
+
+    #[test]
+    fn quotients_are_those_of_wide_words() {
+        let mut state = 1u64;
+        let mut next = |most: u32| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            // Of every length.
+            let bits = (state >> 58) as u32 % most;
+            ((state << 3 | state >> 61) as i64 >> (63 - bits)) ^ (state as i64 & 1)
+        };
+        let ends = [
+            1,
+            -1,
+            2,
+            3,
+            1 << 13,
+            1 << 43,
+            (1 << 44) - 1,
+            -(1 << 44),
+            1 << 44,
+            (1 << 45) + 1,
+        ];
+        for case in 0..2_000_000 {
+            let pick = |case: usize, other: i64| ends.get(case % 40).copied().unwrap_or(other);
+            let (over_w, inverse) = (pick(case, next(47)), pick(case / 40, next(46)));
+            if inverse != 0 {
+                let found = Divisor::new(inverse).divide(over_w);
+                assert_eq!(found, plain(over_w, inverse), "{over_w} over {inverse}");
+            }
+        }
     }
 }
