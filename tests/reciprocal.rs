@@ -19,7 +19,7 @@ fn every_mantissa_of_twenty_bits() {
     }
 }
 
-/// All of them: that two corrections are enough is known from here. Half a minute.
+/// All of them: that one correction is enough is known from here. Half a minute.
 #[test]
 #[ignore = "walks 2^31 divisors"]
 fn every_divisor() {

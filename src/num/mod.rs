@@ -23,7 +23,7 @@ pub use precision::{Precision, TwoSteps};
 pub(crate) use product::{high, high_sum, high_unsigned, product, short_sum, sum_of_signed_parts};
 pub use quotient::Divisor;
 pub use recip::reciprocal;
-pub(crate) use recip::{near_reciprocal, nearer_reciprocal};
+pub(crate) use recip::{near_reciprocal, nearer_reciprocal, quotient_of_ones};
 pub use root::{dot, reciprocal_square_root, square_root, unit, unit_wide};
 pub use table::Table;
 #[cfg(feature = "micromath")]

@@ -4,7 +4,7 @@
 //! 32 are thrown away. From four products of halves it is 20, with the same bits.
 
 /// Whether products of 64 bits are calls: ARMv6-M, which is the one of its family without compare-and-swap.
-const BY_HALVES: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
+pub(super) const BY_HALVES: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
 
 /// Whether one instruction adds such a product to 64 bits, or the machine's words have them.
 pub(crate) const LONG_SUM: bool = !BY_HALVES && cfg!(any(target_arch = "arm", target_pointer_width = "64"));
@@ -16,6 +16,16 @@ pub(crate) fn product(a: i32, b: i32) -> i64 {
         (high(a, b) as i64) << 32 | a.wrapping_mul(b) as u32 as i64
     } else {
         a as i64 * b as i64
+    }
+}
+
+/// a·b.
+#[inline(always)]
+pub(crate) fn product_unsigned(a: u32, b: u32) -> u64 {
+    if BY_HALVES {
+        (high_unsigned(a, b) as u64) << 32 | a.wrapping_mul(b) as u64
+    } else {
+        a as u64 * b as u64
     }
 }
 

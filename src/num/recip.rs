@@ -1,6 +1,8 @@
 //! Reciprocals without a divider.
 
-use super::product::high;
+use core::num::NonZeroU32;
+
+use super::product::{BY_HALVES, high, product_unsigned};
 
 /// floor(2^63 / `divisor`), exactly, for a normalised divisor in 2^31…2^32−1; the result lies in 2^31…2^32.
 ///
@@ -16,13 +18,13 @@ use super::product::high;
 #[inline]
 pub fn reciprocal(divisor: u32) -> u64 {
     let divisor = divisor.max(1 << 31);
-    // Twice of what is less than 4 units below: less than 8 below 2^63/divisor.
-    let near = near_reciprocal(divisor);
+    // Twice of what is less than 8 units below: less than 17 below 2^63/divisor.
+    let near = nearer_reciprocal(divisor);
     let below = (near as u32) << 1;
-    let rest = (1u64 << 63).wrapping_sub(below as u64 * divisor as u64);
-    // rest/divisor, 8 at most, rounded down or one less: 31 bits of the rest by 31 of the reciprocal.
-    let more = (high((rest >> 4) as i32, near) >> 26) as u32;
-    let left = rest.wrapping_sub(more as u64 * divisor as u64);
+    let rest = (1u64 << 63).wrapping_sub(product_unsigned(below, divisor));
+    // rest/divisor, 17 at most, rounded down or one less: 31 bits of the rest by 31 of the reciprocal.
+    let more = (high((rest >> 6) as i32, near) >> 24) as u32;
+    let left = rest.wrapping_sub(product_unsigned(more, divisor));
     below as u64 + (more + (left >= divisor as u64) as u32) as u64
 }
 
@@ -48,15 +50,46 @@ pub(crate) fn near_reciprocal(divisor: u32) -> i32 {
 /// As [`near_reciprocal`], by less than 8 units: the first step in halves of words, whose product is one instruction everywhere.
 #[inline]
 pub(crate) fn nearer_reciprocal(divisor: u32) -> i32 {
-    let seed = SEEDS.get(((divisor >> 24) & 127) as usize).copied().unwrap_or(u16::MAX) as u32;
-    // 1 − d·y in units of 2^-31, within 2^-7, of the divisor's upper half rounded up: y stays below the reciprocal.
-    let error = (1u32 << 31).wrapping_sub(seed.wrapping_mul((divisor >> 16) + 1)) as i32;
-    let y = (seed << 15)
-        .cast_signed()
-        .wrapping_add((seed.cast_signed().wrapping_mul(error >> 9)) >> 7);
+    let y = within_thousands(divisor).cast_signed();
     let product = high(y, divisor as i32).wrapping_add(y);
     let error = ((1 << 30) - 1i32).wrapping_sub(product);
     y.wrapping_add(high(y, error << 2))
+}
+
+/// floor((2^32 − 1) / `divisor`): an instruction where the core divides.
+#[inline(always)]
+pub(crate) fn quotient_of_ones(divisor: NonZeroU32) -> u32 {
+    // ARMv6-M has no divider, as it has no long products.
+    if BY_HALVES && (2..1 << 17).contains(&divisor.get()) {
+        stepwise_quotient_of_ones(divisor.get())
+    } else {
+        u32::MAX / divisor
+    }
+}
+
+/// The same of divisors in 2…2^17, by products of words.
+#[inline(always)]
+fn stepwise_quotient_of_ones(divisor: u32) -> u32 {
+    let zeros = divisor.leading_zeros();
+    let near = within_thousands(divisor << zeros);
+    let mut quotient = near >> (30 - zeros);
+    let mut rest = u32::MAX.wrapping_sub(quotient.wrapping_mul(divisor));
+    // Of what is left, below 2^19, 13 bits more each time: then less than a unit.
+    for _ in 0..2 {
+        let more = rest.wrapping_mul(near >> 18) >> (44 - zeros);
+        quotient = quotient.wrapping_add(more);
+        rest = rest.wrapping_sub(more.wrapping_mul(divisor));
+    }
+    quotient.wrapping_add((rest >= divisor) as u32)
+}
+
+/// 2^62 / `divisor` from below, within 2^-13 of itself, as [`near_reciprocal`] without its last step and by products of words.
+#[inline(always)]
+fn within_thousands(divisor: u32) -> u32 {
+    let seed = SEEDS.get(((divisor >> 24) & 127) as usize).copied().unwrap_or(u16::MAX) as u32;
+    // 1 − d·y in units of 2^-31, within 2^-7, of the divisor's upper half rounded up: y stays below the reciprocal.
+    let error = (1u32 << 31).wrapping_sub(seed.wrapping_mul((divisor >> 16) + 1)) as i32;
+    (seed << 15).wrapping_add_signed((seed.cast_signed().wrapping_mul(error >> 9)) >> 7)
 }
 
 /// seed·2^16 ≈ 2^63 / divisor for the divisors that share their top eight bits, 128 + i.
@@ -75,6 +108,13 @@ const SEEDS: [u16; 128] = {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn stepwise_quotients_are_exact() {
+        for divisor in 2..1 << 17 {
+            assert_eq!(stepwise_quotient_of_ones(divisor), u32::MAX / divisor, "{divisor}");
+        }
+    }
 
     #[test]
     fn near_reciprocals_are_below_and_nearer() {

@@ -5,6 +5,7 @@ use core::hint::black_box;
 
 use super::{Varying, each, hold, settle, widen};
 use crate::gradient::{Basis, EXTRA_BITS, Place, Plane, Ramp};
+use crate::num::product::product;
 use crate::num::reciprocal;
 
 /// N values in perspective: each corner carries value/w and 1/w, which are linear over the screen; every pixel divides.
@@ -227,10 +228,10 @@ impl Divisor {
             return saturated;
         };
         // As a word, which the compiler would look through and multiply as a long one.
-        let top = black_box(top) as i64;
+        let top = black_box(top);
         // Times the reciprocal, which is 2^32 more than kept: between ±2^63.
-        let product = top * reciprocal as i64 + (top << 32) + (1 << 30);
-        i32::try_from(product >> 31).unwrap_or(saturated)
+        let quotient = (product(top, reciprocal) + ((top as i64) << 32) + (1 << 30)) >> 31;
+        i32::try_from(quotient).unwrap_or(saturated)
     }
 }
 
@@ -257,7 +258,7 @@ mod tests {
                 .wrapping_add(1_442_695_040_888_963_407);
             // Of every length.
             let bits = (state >> 58) as u32 % most;
-            ((state << 3 | state >> 61) as i64 >> (63 - bits)) ^ (state as i64 & 1)
+            (state.rotate_left(3) as i64 >> (63 - bits)) ^ (state as i64 & 1)
         };
         let ends = [
             1,

@@ -5,6 +5,8 @@ use core::num::NonZeroU32;
 use super::{Perspective, Varying, each, each_pixel, lay};
 use crate::fragment::Fragment;
 use crate::gradient::{Basis, Place, Plane, Ramp};
+use crate::num::product::product;
+use crate::num::quotient_of_ones;
 use crate::slope::{Slope, Slopes, Weights};
 use crate::span::Span;
 
@@ -74,10 +76,8 @@ impl<const N: usize> Perspective32Ramps<N> {
         // 1/w in 2^-16, at most 1 and not 0; its reciprocal in 2^-16, 1 or more, and so that it is a signed word: a product of
         // two of these is one instruction. The product is in 2^-16 of the units of value/w, which are the values'.
         let inverse = NonZeroU32::MIN | (self.inverse.value >> 14) as u32;
-        let reciprocal = (u32::MAX / inverse) as i32;
-        each(&self.over_w, |ramp| {
-            ((ramp.value as i64 * reciprocal as i64) >> 16) as i32
-        })
+        let reciprocal = quotient_of_ones(inverse) as i32;
+        each(&self.over_w, |ramp| (product(ramp.value, reciprocal) >> 16) as i32)
     }
 }
 
