@@ -139,18 +139,21 @@ impl<T: Word, W: Word> Lens<'_, T, W> {
             }
         }
         for point in polygon.iter() {
-            if let Some((x, y, depth)) = self.viewport.place(point.position, self.depth_range) {
-                let part = if V::WANTS.space {
-                    share(point.size.scaled(magnitude.saturating_neg()))
-                } else {
-                    0
-                };
-                let _ = left.push(Placed {
-                    position: (x, y),
-                    depth,
-                    varying: V::mix([point.carried; 3], &Weights::of_one(part, affine)),
-                });
-            }
+            let Some((x, y, depth)) = self.viewport.place(point.position, self.depth_range) else {
+                // At the camera, where only a triangle that it sees edge-on comes: none of it is seen.
+                left.clear();
+                return;
+            };
+            let part = if V::WANTS.space {
+                share(point.size.scaled(magnitude.saturating_neg()))
+            } else {
+                0
+            };
+            let _ = left.push(Placed {
+                position: (x, y),
+                depth,
+                varying: V::mix([point.carried; 3], &Weights::of_one(part, affine)),
+            });
         }
     }
 
@@ -341,7 +344,8 @@ struct Outline<'p, V> {
 
 impl<'p, V> Outline<'p, V> {
     /// A corner around which no triangle of the fan runs against the `area`, since it would overlap with others. Rounding turns
-    /// one seldom, two next to never: then the triangles of the first corner are as good as any.
+    /// one seldom. A polygon without such a corner crosses over itself, being within a subpixel of a line: then the triangles of
+    /// the first corner are as good as any.
     #[inline(always)]
     fn apex(&self, area: i64) -> usize {
         let is_turned = |apex, i| {
