@@ -8,6 +8,7 @@ use fixel::draw;
 use fixel::fragment::{Compact, Fragment, Gouraud565};
 use fixel::matrix::Matrix;
 use fixel::num::{Block, Scaled, Word};
+use fixel::screen::Shape;
 use fixel::span::Corners;
 use fixel::target::Buffer;
 use fixel::varying::{Color565, Linear, Linear32, Perspective, Varying};
@@ -110,6 +111,21 @@ impl Scene {
         let mut target = Buffer::new(&mut pixels, WIDTH, HEIGHT).unwrap();
         draw::indexed(&view, &mut target, &mut NoDepth, &vertices, [[0u16, 1, 2]], fragment);
         pixels
+    }
+
+    /// How many times the largest 1/w of the polygon's corners its unit is, with all code: up to four.
+    fn scale(&self) -> f64 {
+        let vertices = self.points.map(|point| Vertex {
+            position: Block::from_integers(point),
+            carried: [0],
+        });
+        let mut largest = 1 << 30;
+        self.view::<i32, i32, 2>()
+            .project::<Perspective<1>>(&vertices, |polygon| {
+                let inverses = (0..polygon.count()).map(|i| polygon.varying(i).inverse);
+                largest = inverses.max().unwrap_or(largest);
+            });
+        f64::from(1 << 30) / f64::from(largest)
     }
 
     /// Whether the polygon on the screen has a corner around which all triangles run one way. Rounding takes that from one whose
@@ -405,15 +421,16 @@ proptest! {
         let full = scene.draw::<i32, i32, _, _, 2>(carried, &Values::<Perspective<2>>(PhantomData), None);
         let compact = Compact(Values::<Perspective<2>>(PhantomData));
         let compact = scene.draw::<i32, i32, _, _, 2>(carried, &compact, None);
+        let scale = scene.scale();
         for (full, compact) in full.into_iter().zip(compact) {
             prop_assert_eq!(full.is_some(), compact.is_some());
             let (Some([a, b]), Some([c, d])) = (full, compact) else {
                 continue;
             };
-            // Either is within ρ·(2^-26·2^20 + 1) + 3 of the plane through corners that are rounded by a unit, with ρ up to 64. A row
-            // that leaves the corners' range where a fourth corner is rounded off the plane is moved by another unit over ρ.
+            // Either is within ρ·(2^-26·2^20 + 1) + 3 of the plane through corners that are rounded by a unit. 1/w is
+            // between 1/64 and 1, in units that are `scale` times the largest with all code, and up to twice that here.
             let most = a.abs_diff(c).max(b.abs_diff(d));
-            prop_assert!(most <= 2 * (2 * 64 + 5), "{:?} {:?}", full, compact);
+            prop_assert!(f64::from(most) <= 64.0 * (scale + 2.0) + 10.0, "{:?} {:?}", full, compact);
         }
     }
 

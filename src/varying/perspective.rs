@@ -14,9 +14,10 @@ use crate::num::reciprocal;
 /// corners' values; with mixed signs 1/w passes through 0 inside the polygon, and the value saturates there.
 ///
 /// **Error**: 1/w and value/w are within 2^-27 of their largest corner value, and value/w is rounded to a unit at the
-/// corners. With ρ the largest 1/w of the polygon over that of the pixel, the value is within
-/// ρ·(2^-26·largest + 1) + 3 units + 2^-30·|value| (`tests/interpolation.rs`). That is from the plane through three corners: where
-/// a polygon has a fourth that rounding took off it, and a row would leave the corners' range there, all of the row is moved to stay
+/// corners. With ρ the unit of 1/w over that of the pixel (best the largest of the polygon over that of the pixel, through a
+/// [view](crate::view) up to four times as much), the value is within ρ·(2^-26·largest + 1) + 3 units + 2^-30·|value|
+/// (`tests/interpolation.rs`). That is from the plane through three corners: where a polygon has a fourth that rounding took off
+/// it, and a row would leave the corners' range there, all of the row is moved to stay
 /// in it, 1/w and each value/w by itself, and the quotient by what they differ.
 ///
 /// ```
