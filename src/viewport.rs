@@ -129,6 +129,11 @@ impl<W: Word> Viewport<W> {
         })
     }
 
+    /// Whether a place lies inside the guard band, where [`place`](Self::place) has moved nothing.
+    pub(crate) fn is_inside(&self, (x, y): (i32, i32)) -> bool {
+        x.max(y) < Self::LIMIT && x.min(y) > -Self::LIMIT
+    }
+
     /// As [`place`](Self::place), but positions are not moved into the guard band.
     pub(crate) fn place_anywhere<T: Word>(&self, position: Block<T, 4>, range: DepthRange) -> Option<(i32, i32, i32)> {
         self.place_by(position, range, coordinate)

@@ -5,7 +5,7 @@ use crate::num::{Block, Scaled, Wide, Word};
 use crate::screen::Shape;
 use crate::span::Corners;
 use crate::varying::Varying;
-use crate::view::{Carried, PlacedCorner, Weigh, in_clip_space, w_of};
+use crate::view::{Carried, Fan, PlacedCorner, Weigh, in_clip_space, w_of};
 use crate::viewport::Viewport;
 
 use super::state::{Culling, State};
@@ -119,14 +119,19 @@ pub(super) fn triangle<I, T, W, V, const N: usize>(
         if !keeps_whole(state, &clipped) {
             return;
         }
+        let mut fan = Fan::new(&state.viewport, clipped.len(), |i| clipped.get(i).map(as_vertex));
         for i in 2..clipped.len() {
-            let (Some(a), Some(b), Some(c)) = (clipped.get(0), clipped.get(i - 1), clipped.get(i)) else {
+            let Some(start) = fan.start(i) else {
+                continue;
+            };
+            let (Some(first), Some(start), Some(second), Some(third)) =
+                (clipped.get(0), clipped.get(start), clipped.get(i - 1), clipped.get(i))
+            else {
                 return;
             };
-            let corners = [a, b, c];
-            let positions = corners.map(as_vertex);
+            let positions = [first, start, third].map(as_vertex);
             let vertices = Given {
-                values: corners.map(|corner| V::between(vertices.values, &in_clip_space(corner))),
+                values: [first, second, third].map(|corner| V::between(vertices.values, &in_clip_space(corner))),
                 w: positions.map(w_of),
             };
             let part = Polygon::of_vertices(positions);

@@ -61,8 +61,8 @@ impl<const N: usize> Varying for Linear<N> {
 /// division by w, and the polygon is drawn as a fan, each triangle with its own values (MP1 without `hyp`). Without user
 /// planes, or where w is constant, it is the same as [`Linear`].
 ///
-/// A fan's triangles share their diagonals exactly; only where a cut falls within 1/256 px of a corner can a diagonal be turned
-/// over by rounding, and a sample on it be drawn twice.
+/// A fan's triangles share their diagonals exactly, and no sample is drawn twice: where a cut falls within 1/256 px of a corner and
+/// rounding turns a triangle of the fan over, that one is left out (`tests/fans.rs`).
 ///
 /// ```
 /// use fixel::varying::LinearFan;

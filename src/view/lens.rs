@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 
 use super::carried::{Shares, Wants, Weigh, at_cut, at_vertices, in_clip_space, whole};
 use super::projected::{Left, Next, PlacedCorner, Places};
-use super::{Carried, Cull, Vertex, View, in_front, w_of};
+use super::{Carried, Cull, Fan, Vertex, View, in_front, w_of};
 use crate::clip::{
     Behind, ClipCorner, DepthRange, Held, Polygon, ScreenPlanes, Slots, at_far, before_camera, cut_by, distance_of,
     is_beyond, is_in_volume, to_view,
@@ -282,16 +282,33 @@ impl<T: Word, W: Word> Lens<'_, T, W> {
     /// Every triangle of the fan as if it had been given: its corners' values are linear in clip space, and what is cut from
     /// here on is linear over the screen.
     fn fan<V: Carried>(&self, polygon: &Slots<'_, ClipCorner<T>>, carried: &[V::Vertex; 3], next: &mut Next<'_, V>) {
-        for i in 2..polygon.held().len() {
-            let (Some(first), Some(second), Some(third)) =
-                (polygon.held().get(0), polygon.held().get(i - 1), polygon.held().get(i))
-            else {
+        let corners = polygon.held();
+        // Through infinity, the triangles are separate: which of them lie on one another is not for their corners to say.
+        let is_separate = changes_sign(corners);
+        let mut fan = Fan::new(self.viewport, corners.len(), |i| {
+            let position = corners.get(i).filter(|_| !is_separate)?.position;
+            Some(if in_front(w_of(position)) {
+                position
+            } else {
+                position.negated()
+            })
+        });
+        for i in 2..corners.len() {
+            let Some(start) = fan.start(i) else {
                 continue;
             };
-            let corners = [first, second, third];
-            let values = corners.map(|corner| V::between(*carried, &in_clip_space(corner)));
-            let mut given = Polygon::<_, 0>::of_vertices(corners.map(|corner| corner.position));
-            let w = corners.map(|corner| w_of(corner.position));
+            let (Some(first), Some(start), Some(second), Some(third)) = (
+                corners.get(0),
+                corners.get(start),
+                corners.get(i.wrapping_sub(1)),
+                corners.get(i),
+            ) else {
+                continue;
+            };
+            let positions = [first, start, third].map(|corner| corner.position);
+            let values = [first, second, third].map(|corner| V::between(*carried, &in_clip_space(corner)));
+            let mut given = Polygon::<_, 0>::of_vertices(positions);
+            let w = positions.map(w_of);
             self.cut::<V>(&mut given.slots(), w, &values, next);
         }
     }

@@ -2,6 +2,7 @@
 
 mod carried;
 mod compact;
+mod fan;
 mod lens;
 mod line;
 mod point;
@@ -16,6 +17,7 @@ use crate::viewport::Viewport;
 pub use carried::{Carried, InSpace, OnScreen, Shares, Wants, Weights};
 pub(crate) use carried::{Weigh, in_clip_space};
 pub(crate) use compact::Painting;
+pub(crate) use fan::Fan;
 pub use line::ProjectedLine;
 use projected::Left;
 pub use projected::Projected;

@@ -142,7 +142,7 @@ impl<'a> Piece<'a> {
         let moved = from_fn(|i| {
             let range = Interval::of(sharing(&self.corners, self.outline).iter().map(|c| of(c)[i] / c.w));
             let free = self.along(p, numerators.map(|n| (n[i], range)), value[i], least);
-            let range = Interval::of(self.corners.iter().map(|c| of(c)[i]));
+            let range = Interval::of(sharing(&self.corners, self.outline).iter().map(|c| of(c)[i]));
             if self.outline.mixed { free } else { free.clamped(range) }
         });
         Some(Range {

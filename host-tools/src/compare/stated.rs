@@ -4,6 +4,10 @@
 /// Rounding a corner to 1/256 px moves it by at most half a unit in x and in y: √2 · 2⁻⁹ px.
 pub const SNAP: f64 = std::f64::consts::SQRT_2 / 512.0;
 
+/// How far corners are from each other that are rounded to within 1/256 px in x and in y: the core may take one for both where a
+/// polygon is drawn as a fan.
+pub const SUBPIXEL: f64 = 2.0 * SNAP;
+
 /// Relative error of the core's matrices, vectors and their products against the largest entry of the result: 64-bit
 /// words share one exponent per vector or matrix, of which 62 bits are mantissa; four bits are left for the sums.
 pub const FIXED_PRODUCT: f64 = 1.0 / (1u64 << 58) as f64;

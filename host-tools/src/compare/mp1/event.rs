@@ -105,9 +105,11 @@ impl<'a> Drawn<'a> {
         let fragments = if shape.outline.wild {
             vec![Fragment::ANYTHING]
         } else {
-            (shape.near(p))
-                .flat_map(|piece| self.fragments(Values::of_piece(piece, p, self.mark)))
-                .collect()
+            let of_piece = |piece| self.fragments(Values::of_piece(piece, p, self.mark));
+            let mut all: Vec<Fragment> = shape.near(p).flat_map(of_piece).collect();
+            let is_between = shape.near(p).count() > 1;
+            all.iter_mut().for_each(|fragment| fragment.is_between = is_between);
+            all
         };
         Some(Event {
             coverage: claim.coverage,

@@ -14,7 +14,7 @@ pub struct Decisions {
     pub texel: bool,
     /// Which of two depths is nearer.
     pub depth: bool,
-    /// Whether a mark covers the sample.
+    /// Whether a mark covers the sample, and with which triangle of its fan.
     pub edge: bool,
 }
 
@@ -109,9 +109,9 @@ fn step(state: &State, event: &Event, tested: bool, unit: f64, next: &mut Vec<St
         next.push(state.after(DEPTH));
     }
     let mut decision = State::EMPTY.decisions;
-    decision.edge = perhaps;
     decision.depth = !passes;
     for fragment in &event.fragments {
+        decision.edge = perhaps || fragment.is_between;
         decision.texel = fragment.texel == Texel::Other;
         decision.pole = fragment.texel == Texel::Pole;
         let moved = over(&fragment.moved, &state.moved, 0.0);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::compare::stated::{CARRIED_CHANNEL, DECODED, FIXED_PRODUCT, MIXED_HEADROOM};
+use crate::compare::stated::{CARRIED_CHANNEL, DECODED, FIXED_PRODUCT, MIXED_HEADROOM, SUBPIXEL};
 use crate::picture::Picture;
 use crate::reference::attributes::{Attributes, Bounds};
 use crate::reference::bound::{Tracked, size};
@@ -227,9 +227,29 @@ impl<'s> Maker<'s> {
 /// Values linear over the screen in each triangle of the fan: w does not count.
 fn linear(outline: &mut Outline) {
     outline.fanned = outline.outer.len() > 3;
+    if outline.fanned {
+        loosen_near(&mut outline.outer);
+        outline.inner.iter_mut().for_each(|inner| loosen_near(inner));
+    }
     outline.mixed = false;
     outline.outer.iter_mut().for_each(without_w);
     outline.inner.iter_mut().flatten().for_each(without_w);
+}
+
+/// Where two corners may be rounded to within a subpixel of each other in x and in y, the core may take one of them for both.
+fn loosen_near(corners: &mut [Corner]) {
+    let places: Vec<[f64; 2]> = corners.iter().map(|corner| corner.position).collect();
+    let count = corners.len();
+    for (i, corner) in corners.iter_mut().enumerate() {
+        let is_near = |other: [f64; 2]| {
+            let [dx, dy] = [0, 1].map(|k| corner.position[k] - other[k]);
+            dx.hypot(dy) <= SUBPIXEL + 2.0 * corner.reach
+        };
+        if is_near(places[(i + 1) % count]) || is_near(places[(i + count - 1) % count]) {
+            corner.reach += SUBPIXEL;
+            corner.shift += SUBPIXEL;
+        }
+    }
 }
 
 fn without_w(corner: &mut Corner) {
