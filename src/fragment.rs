@@ -59,7 +59,7 @@ pub trait Fragment {
 /// What a view leaves of a triangle is one polygon. Values that are linear over the screen, and those with
 /// [slopes](mod@crate::slope), are drawn over it as over the triangles around its first corner, or around another where rounding has
 /// turned one of these; a triangle that is cut and seen edge-on, whose polygon rounding makes cross over itself, can draw samples of
-/// its line that it does not draw otherwise. Where a plane cuts, values run linearly over the screen if both ends of the edge are before the camera, else
+/// its line that it does not draw otherwise, or leave them out. Where a plane cuts, values run linearly over the screen if both ends of the edge are before the camera, else
 /// in clip space.
 ///
 /// What it does without: up to 247 user planes count; [`LinearFan`](crate::varying::LinearFan) is as

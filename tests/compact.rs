@@ -104,6 +104,12 @@ where
     })
 }
 
+/// Whether the triangle's plane passes through the camera: of its line, `Compact` may draw other samples.
+fn is_edge_on(points: [[i32; 4]; 3]) -> bool {
+    let [[a, b, c, _], [d, e, f, _], [g, h, i, _]] = points;
+    a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) == 0
+}
+
 /// As [`seen`], in one colour.
 fn outline<F: Fragment<Varying = (), Pixel = u16>>(points: [[i32; 4]; 3], fragment: &F) -> Vec<u16> {
     let mut pixels = vec![0; 48 * 32];
@@ -168,6 +174,7 @@ proptest! {
     /// Both are within a level and a step of the exact values: of each other, since less than half of that is not rounding.
     #[test]
     fn what_a_view_leaves_is_the_same(points in [eye_point(), eye_point(), eye_point()], colors: [[u8; 3]; 3]) {
+        prop_assume!(!is_edge_on(points));
         let drawn = outline(points, &Flat(1));
         prop_assert_eq!(&outline(points, &Compact(Flat(1))), &drawn);
         let carried = gouraud(colors).map(|color| color.0);
