@@ -200,6 +200,46 @@ impl List {
         let mut moved = || [(); 2].map(|()| random.within(-MOVED, MOVED));
         (0..200).map(|_| self.by_float_each(moved(), |_| moved())).collect()
     }
+
+    /// How far a value of a pixel may be off because the core moves rows of what is cut, those of value/w and of 1/w each by itself, to
+    /// stay within the corners' range: by (2n − 4) · δ of the gradient for n corners, as `compare/piece.rs` has it.
+    fn held(&self, primitive: i32, pixel: usize, value: usize) -> f64 {
+        let own: Vec<&Vertex> = self.vertices.iter().filter(|v| v.primitive == primitive).collect();
+        let [a, b, c] = own[..] else {
+            return 0.0;
+        };
+        let is_beyond = |vertex: &&Vertex, plane: &[i32; 4]| {
+            let distance = plane.iter().zip(vertex.position);
+            distance.map(|(&p, v)| i64::from(p) * i64::from(v)).sum::<i64>() < 0
+        };
+        let planes = || [[0, 0, 1, 1]].into_iter().chain(self.planes.iter().copied());
+        let is_cut = planes().any(|plane| own.iter().any(|vertex| is_beyond(vertex, &plane)));
+        if self.linear || !is_cut {
+            return 0.0;
+        }
+        let side = usize::from(SIDE);
+        let half = f64::from(SIDE) / 2.0;
+        let at = [pixel % side, pixel / side].map(|i| (i as f64 + 0.5) / half - 1.0);
+        let rows = [a, b, c].map(|v| [0, 1, 3].map(|i| f64::from(v.position[i])));
+        let det = |m: [[f64; 3]; 3]| {
+            let [[a, b, c], [d, e, f], [g, h, i]] = m;
+            a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+        };
+        // The function on the screen that is v/w at each vertex: there and its gradient per px.
+        let function = |v: [f64; 3]| {
+            let [x, y, one] = [0, 1, 2].map(|column| {
+                let mut replaced = rows;
+                (0..3).for_each(|row| replaced[row][column] = v[row]);
+                det(replaced) / det(rows)
+            });
+            (x * at[0] + y * at[1] + one, x.hypot(y) / half)
+        };
+        let values = [a, b, c].map(|v| f64::from(v.values[value]) / f64::from(ONE));
+        let ((n, n_slope), (q, q_slope)) = (function(values), function([1.0; 3]));
+        let corners = 4 + self.planes.len();
+        let by = (2 * corners - 4) as f64 * std::f64::consts::SQRT_2 / 512.0;
+        (n_slope + (n / q).abs() * q_slope) * by / (q.abs() - q_slope * by).max(0.0)
+    }
 }
 
 /// How a list's pixels compare.
@@ -225,7 +265,7 @@ fn judged(list: &List) -> Judged {
             .filter(|f| f[2] == primitive)
             .collect::<Vec<_>>()
     };
-    let fits = |floats: &[Vec<[f64; 4]>], i: usize| {
+    let fits = |floats: &[Vec<[f64; 4]>], i: usize, held: bool| {
         // Between the least and the largest that the same primitive has there, and as much beyond: where only a few ways to move it
         // cover the pixel, these are all to one side of it.
         let same = same(floats, i);
@@ -233,17 +273,18 @@ fn judged(list: &List) -> Judged {
             let value = f64::from(core[i].values[k]) / f64::from(ONE);
             let all = same.iter().map(|f| f[k]);
             let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-            let beyond = high - low + ERROR;
+            let row = if held { list.held(core[i].primitive, i, k) } else { 0.0 };
+            let beyond = high - low + ERROR + row;
             low - beyond <= value && value <= high + beyond
         };
         core[i].primitive == 0 || within(0) && within(1)
     };
     let (alone, known): (Vec<usize>, Vec<usize>) = (0..core.len()).partition(|&i| same(&floats, i).len() < 3);
-    let mut bad: Vec<usize> = known.into_iter().filter(|&i| !fits(&floats, i)).collect();
+    let mut bad: Vec<usize> = known.into_iter().filter(|&i| !fits(&floats, i, false)).collect();
     if !bad.is_empty() {
-        // A sliver has other values, too, where its corners move apart.
+        // A sliver has other values, too, where its corners move apart; and what is cut may have rows moved.
         let apart = list.apart();
-        bad.retain(|&i| !fits(&apart, i));
+        bad.retain(|&i| !fits(&apart, i, true));
     }
     let described = bad.first().map(|&i| {
         let (x, y) = (i % usize::from(SIDE), i / usize::from(SIDE));
