@@ -24,6 +24,8 @@ pub struct Event {
     pub coverage: Coverage,
     /// z/w as the core may have it, half a step of 16 bits included.
     pub depth: Interval,
+    /// Whether the sample lies on an edge between triangles of a fan, so that each fragment may be another's than the reference's.
+    pub is_between: bool,
     /// What may be drawn: one of these.
     pub fragments: Vec<Fragment>,
 }
@@ -105,15 +107,14 @@ impl<'a> Drawn<'a> {
         let fragments = if shape.outline.wild {
             vec![Fragment::ANYTHING]
         } else {
-            let of_piece = |piece| self.fragments(Values::of_piece(piece, p, self.mark));
-            let mut all: Vec<Fragment> = shape.near(p).flat_map(of_piece).collect();
-            let is_between = shape.near(p).count() > 1;
-            all.iter_mut().for_each(|fragment| fragment.is_between = is_between);
-            all
+            (shape.near(p))
+                .flat_map(|piece| self.fragments(Values::of_piece(piece, p, self.mark)))
+                .collect()
         };
         Some(Event {
             coverage: claim.coverage,
             depth: claim.depth,
+            is_between: !shape.outline.wild && shape.near(p).count() > 1,
             fragments,
         })
     }
@@ -182,6 +183,7 @@ impl<'a> Drawn<'a> {
                 Coverage::Perhaps
             },
             depth: depth.widened(DEPTH_ROUNDING * self.screen.depth_step()),
+            is_between: false,
             fragments,
         })
     }
@@ -200,6 +202,7 @@ impl<'a> Drawn<'a> {
             return Some(Event {
                 coverage: Coverage::Perhaps,
                 depth: Interval::ALL,
+                is_between: false,
                 fragments: vec![Fragment::ANYTHING],
             });
         }

@@ -109,9 +109,9 @@ fn step(state: &State, event: &Event, tested: bool, unit: f64, next: &mut Vec<St
         next.push(state.after(DEPTH));
     }
     let mut decision = State::EMPTY.decisions;
+    decision.edge = perhaps || event.is_between;
     decision.depth = !passes;
     for fragment in &event.fragments {
-        decision.edge = perhaps || fragment.is_between;
         decision.texel = fragment.texel == Texel::Other;
         decision.pole = fragment.texel == Texel::Pole;
         let moved = over(&fragment.moved, &state.moved, 0.0);

@@ -22,8 +22,6 @@ pub struct Fragment {
     pub full: Channels,
     /// Of which texel.
     pub texel: Texel,
-    /// Whether the sample lies on an edge of the fan's triangles, so that another of them may be the reference's.
-    pub is_between: bool,
 }
 
 /// Which texel a fragment has.
@@ -43,7 +41,6 @@ impl Fragment {
         moved: [Interval::ALL, Interval::ALL, Interval::ALL, OPACITY],
         full: [Interval::ALL, Interval::ALL, Interval::ALL, OPACITY],
         texel: Texel::Pole,
-        is_between: false,
     };
 
     /// Alpha times the covered part of the pixel.
@@ -172,7 +169,6 @@ pub fn fragments(paint: &Paint, values: &Values) -> Vec<Fragment> {
         } else {
             Texel::Pole
         },
-        is_between: false,
     };
     match paint {
         Paint::Colors => vec![own],
@@ -203,7 +199,6 @@ fn textured(texture: &Picture, values: &Values, below: Option<&Fragment>) -> Vec
                 color[i].widened(unit / 2.0)
             }),
             texel: if own { Texel::Own } else { Texel::Other },
-            is_between: false,
         };
         let fragment = match below {
             None => top,
@@ -215,7 +210,6 @@ fn textured(texture: &Picture, values: &Values, below: Option<&Fragment>) -> Vec
                 } else {
                     top.texel
                 },
-                is_between: false,
             },
         };
         if all.len() < FEW {
@@ -225,7 +219,6 @@ fn textured(texture: &Picture, values: &Values, below: Option<&Fragment>) -> Vec
                 moved: joined(&last.moved, &fragment.moved),
                 full: joined(&last.full, &fragment.full),
                 texel: Texel::Other,
-                is_between: false,
             };
         }
     }
