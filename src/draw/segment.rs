@@ -11,7 +11,7 @@ use crate::target::Target;
 use crate::varying::Varying;
 use crate::view::{Carried, Vertex, View};
 
-use super::depth_plane;
+use super::planes::depth_plane;
 
 /// Draws the line between two ends within ±4096 px, one pixel at every step of its longer axis; see
 /// [`segment`](mod@crate::segment).
